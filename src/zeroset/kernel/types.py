@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Type:
-    """A scalar type of the kernel language.
+    """A scalar type of the kernel language; there are the five below and no others, so identity is equality.
 
     Attributes:
         name: ``f32``, ``f64``, ``i32``, ``u32`` or ``bool``.

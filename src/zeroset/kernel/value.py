@@ -33,7 +33,7 @@ class Instruction:
         self.operands = operands
         self.attributes = attributes
         self.regions = regions
-        self.results = tuple(Value(t, self) for t in types)
+        self.results = tuple([Value(t, self) for t in types])
 
 
 class Block:
@@ -91,7 +91,8 @@ def emit(
 def constant(value: float | int | bool, type_: Type) -> Value:
     """A constant of a kernel type; floats are rounded to nearest. NaN and infinity are not constants of kernels."""
     if type_.kind == "f":
-        rounded = float(type_.dtype.type(value))
+        with np.errstate(over="ignore"):
+            rounded = float(type_.dtype.type(value))
         if not np.isfinite(rounded):
             raise KernelError(f"{value!r} is no finite {type_} constant; use a large finite sentinel instead")
         # repr keeps 0.0 and -0.0 apart, which compare equal as dictionary keys.
@@ -117,9 +118,8 @@ def lift(value: Scalar, type_: Type) -> Value:
     """A Value as it is, a Python number as a constant of ``type_``."""
     if isinstance(value, Value):
         return value
-    if isinstance(value, (np.generic, np.ndarray)):
-        value = value.item()
-    return constant(value, type_)
+    number: Any = value.item() if isinstance(value, (np.generic, np.ndarray)) else value
+    return constant(number, type_)
 
 
 def apply(name: str, *operands: Value) -> Value:

@@ -7,6 +7,8 @@ table; loops and branches carry and yield matching types; memory operations name
 
 from __future__ import annotations
 
+from math import isfinite
+
 from zeroset.errors import KernelError
 from zeroset.kernel.build import Kernel
 from zeroset.kernel.ops import OPS, result_type
@@ -20,14 +22,17 @@ class _Verifier:
         self.uniforms = {u.name: u.type for u in kernel.uniforms}
         self.buffers = {b.name: b for b in kernel.buffers}
         self.defined: set[int] = set()
+        # Most instructions repeat an operation on types already found right.
+        self.legal: set[tuple[str, tuple[Type, ...], tuple[Type, ...]]] = set()
 
     def fail(self, instruction: Instruction | None, why: str) -> None:
         where = f" in {instruction.op}" if instruction is not None else ""
         raise KernelError(f"kernel {self.kernel.name} is not legal{where}: {why}")
 
     def uses(self, instruction: Instruction | None, values: tuple[Value, ...]) -> None:
+        defined = self.defined
         for value in values:
-            if id(value) not in self.defined:
+            if id(value) not in defined:
                 self.fail(instruction, "an operand is used where it is not defined")
 
     def block(self, block: Block, expected: tuple[Type, ...]) -> None:
@@ -46,12 +51,15 @@ class _Verifier:
         self.defined.difference_update(inside)
 
     def instruction(self, instruction: Instruction) -> None:
+        types = tuple([v.type for v in instruction.operands])
+        results = tuple([v.type for v in instruction.results])
+        typing = (instruction.op, types, results)
+        if typing in self.legal:
+            return
         op = OPS.get(instruction.op)
         if op is None:
             self.fail(instruction, "there is no such operation")
             return
-        types = tuple(v.type for v in instruction.operands)
-        results = tuple(v.type for v in instruction.results)
         if op.arity >= 0 and len(types) != op.arity:
             self.fail(instruction, f"it takes {op.arity} operands, not {len(types)}")
         if op.result in ("same", "bool") and op.name != "any":
@@ -62,6 +70,7 @@ class _Verifier:
                 return
             if results != (expected,):
                 self.fail(instruction, f"its result should be {expected}")
+            self.legal.add(typing)
             return
         check = getattr(self, f"_{op.name}", None) or (self._atomic if op.name.startswith("atomic") else None)
         if check is None:
@@ -72,6 +81,13 @@ class _Verifier:
     def _const(self, instruction: Instruction, types: tuple[Type, ...], results: tuple[Type, ...]) -> None:
         if len(results) != 1 or len(instruction.attributes) != 1:
             self.fail(instruction, "a constant is one value of one type")
+        kind, text = results[0].kind, instruction.attributes[0]
+        try:
+            legal = text in ("True", "False") if kind == "b" else isfinite(float(text) if kind == "f" else int(text))
+        except ValueError:
+            legal = False
+        if not legal:
+            self.fail(instruction, f"{text} is no finite constant of type {results[0]}")
 
     def _uniform(self, instruction: Instruction, types: tuple[Type, ...], results: tuple[Type, ...]) -> None:
         if self.uniforms.get(instruction.attributes[0]) != results[0]:

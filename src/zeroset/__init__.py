@@ -1,0 +1,94 @@
+"""zeroset draws the surface f(x, y, z) = 0 of any formula, ray by ray, with certified answers.
+
+    import zeroset as zs
+
+    s = zs.surface("x^2 + y^2 + z^2 + sin(4x) - cos(4y) + sin(4z) = 1")
+    zs.render(s).save("blobby.png")
+    hits = zs.cast(s, origins, directions)
+
+The public names are loaded on first use, so that importing the package costs next to nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from zeroset import errors, methods
+    from zeroset.errors import ZerosetError
+    from zeroset.render.cast import Hits, cast
+    from zeroset.render.image import Image
+    from zeroset.render.render import render
+    from zeroset.scene.bounds import Ball, Box
+    from zeroset.scene.camera import Camera
+    from zeroset.scene.file import load, save
+    from zeroset.scene.light import Light, Material
+    from zeroset.scene.scene import Scene
+    from zeroset.scene.surface import Surface, surface
+    from zeroset.shelf import gallery
+
+MISS: int = 0
+HIT: int = 1
+UNRESOLVED: int = 2
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "HIT",
+    "MISS",
+    "UNRESOLVED",
+    "Ball",
+    "Box",
+    "Camera",
+    "Hits",
+    "Image",
+    "Light",
+    "Material",
+    "Scene",
+    "Surface",
+    "ZerosetError",
+    "__version__",
+    "cast",
+    "errors",
+    "gallery",
+    "load",
+    "methods",
+    "render",
+    "save",
+    "surface",
+]
+
+_HOMES = {
+    "Ball": "zeroset.scene.bounds",
+    "Box": "zeroset.scene.bounds",
+    "Camera": "zeroset.scene.camera",
+    "Hits": "zeroset.render.cast",
+    "Image": "zeroset.render.image",
+    "Light": "zeroset.scene.light",
+    "Material": "zeroset.scene.light",
+    "Scene": "zeroset.scene.scene",
+    "Surface": "zeroset.scene.surface",
+    "ZerosetError": "zeroset.errors",
+    "cast": "zeroset.render.cast",
+    "gallery": "zeroset.shelf",
+    "load": "zeroset.scene.file",
+    "render": "zeroset.render.render",
+    "save": "zeroset.scene.file",
+    "surface": "zeroset.scene.surface",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in ("errors", "methods"):
+        return importlib.import_module(f"zeroset.{name}")
+    home = _HOMES.get(name)
+    if home is None:
+        raise AttributeError(f"module 'zeroset' has no attribute {name!r}")
+    value = getattr(importlib.import_module(home), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,31 @@
+"""Number systems over any scalar: reals, intervals, affine forms, gradients, polynomials.
+
+Each system makes numbers that have one method for every operator of the expression table. Evaluating a formula on
+numbers of kernel Values writes the kernel that computes its extension; on floats it computes the extension itself.
+"""
+
+from zeroset.arith.affine import Affine
+from zeroset.arith.affine_system import AffineSystem
+from zeroset.arith.contraction import Contraction
+from zeroset.arith.flags import Flags
+from zeroset.arith.format import F32, F64, Format
+from zeroset.arith.interval import Interval, IntervalSystem
+from zeroset.arith.number import Condition, Number, System
+from zeroset.arith.real import Real, RealSystem
+
+__all__ = [
+    "F32",
+    "F64",
+    "Affine",
+    "AffineSystem",
+    "Condition",
+    "Contraction",
+    "Flags",
+    "Format",
+    "Interval",
+    "IntervalSystem",
+    "Number",
+    "Real",
+    "RealSystem",
+    "System",
+]

@@ -1,0 +1,196 @@
+"""Reduced affine arithmetic: a real as centre + terms times shared symbols in [-1, 1] + one error.
+
+AF1 of Messine as Knoll et al. 2009 use it (section 3.3.2 and eq. 15; doi:10.1111/j.1467-8659.2008.01189.x), with one symbol
+for a ray or three for a beam; squares are tight, division and the elementary functions are affine too
+(``linearise``), and rounding is carried in the error through the account of ``budget``. With ``intersect`` an interval goes
+along, and the range is the meet of both (Gamito & Maddock 2007).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from zeroset.arith import affine_arithmetic as arithmetic
+from zeroset.arith import affine_choice as choice
+from zeroset.arith import affine_functions as functions
+from zeroset.arith import contraction
+from zeroset.arith.budget import MARGIN, Budget, repaid
+from zeroset.arith.contraction import Contraction
+from zeroset.arith.flags import TOTAL, Flags
+from zeroset.arith.format import Format
+from zeroset.arith.interval import Interval
+from zeroset.arith.number import Number
+from zeroset.arith.rounding import clamp
+from zeroset.arith.scalar import (
+    Mask, Scalar, absolute, add, fma, gt, is_literal, is_zero, maximum, minimum, not_, or_, sub,
+)  # fmt: skip
+
+if TYPE_CHECKING:
+    from zeroset.arith.affine_system import AffineSystem
+
+__all__ = ["Affine", "Contraction"]
+
+
+class Affine(Number):
+    """c + u_1 e_1 + ... + u_n e_n, within ``error``.
+
+    Attributes:
+        centre: c, a scalar.
+        terms: u_1 ... u_n, scalars; a literal 0 where a symbol does not occur.
+        error: bound of everything else, before the repayment that ``budget`` asks for; literal 0 when exact.
+        budget: the rounding account.
+        flags: where f is defined on the box.
+        bounds: an interval that holds f too, or None.
+
+    Example:
+        >>> from zeroset.arith import F64, AffineSystem
+        >>> system = AffineSystem(F64)
+        >>> t = system.symbol(0, 0.5, 0.25)  # 0.5 + 0.25 e
+        >>> bool((t.sqr() - t + 1.0).contains_zero()), bool((t.sqr() - 0.25).contains_zero())
+        (False, True)
+    """
+
+    __slots__ = ("_system", "bounds", "budget", "centre", "error", "flags", "terms")
+
+    def __init__(
+        self,
+        system: AffineSystem,
+        centre: Scalar,
+        terms: tuple[Scalar, ...],
+        error: Scalar,
+        budget: Budget | None = None,
+        flags: Flags = TOTAL,
+        bounds: Interval | None = None,
+    ) -> None:
+        self._system = system
+        self.centre = centre
+        self.terms = terms
+        self.error = error
+        self.budget = Budget() if budget is None else budget
+        self.flags = flags
+        self.bounds = bounds
+
+    def __repr__(self) -> str:
+        return f"Affine({self.centre!r}, {self.terms!r}, {self.error!r})"
+
+    @property
+    def system(self) -> AffineSystem:
+        """The system that made this number."""
+        return self._system
+
+    @property
+    def fmt(self) -> Format:
+        """The floating-point format of the scalars."""
+        return self._system.fmt
+
+    @property
+    def defined(self) -> Mask:
+        """Whether f is certainly defined and continuous on the whole box."""
+        return self.flags.defined
+
+    @property
+    def empty(self) -> Mask:
+        """Whether f is certainly defined nowhere on the box."""
+        return self.flags.empty
+
+    @property
+    def is_scalar(self) -> bool:
+        """Whether this is exactly its centre, as known while tracing."""
+        return is_zero(self.error) and all(is_zero(u) for u in self.terms)
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether this is known while tracing altogether."""
+        return is_literal(self.centre, self.error) and all(is_zero(u) for u in self.terms)
+
+    def radius(self) -> Scalar:
+        """sum |u_i| + error, before repayment."""
+        total = self.error
+        for term in self.terms:
+            total = add(absolute(term), total)
+        return total
+
+    def reach(self) -> Scalar:
+        """How far the number may be from its centre: the radius with the roundings of its arithmetic repaid."""
+        return repaid(self.fmt, self.radius(), self.budget.depth + len(self.terms))
+
+    def form_range(self) -> tuple[Scalar, Scalar]:
+        """Bounds from the form alone, ``interval`` without the interval that goes along."""
+        if self.is_scalar:
+            return self.centre, self.centre
+        reach = self.reach()
+        if self.budget.credit < MARGIN or self.budget.slack < 4:
+            # Pays for the two roundings below: a share of |c|, and one of the radius by way of its depth.
+            reach = repaid(self.fmt, self.radius(), self.budget.depth + len(self.terms) + 3)
+            reach = fma(absolute(self.centre), 2 * self.fmt.eps, reach + self.fmt.tiny)
+        # clamp keeps its second operand for a NaN, which makes a form that overflowed the whole line.
+        low, high = sub(self.centre, reach), add(self.centre, reach)
+        big = self.fmt.big
+        return clamp(self.fmt, low), maximum(minimum(high, big), -big)
+
+    def interval(self) -> Interval:
+        """The range, as an interval."""
+        low, high = self.form_range()
+        form = Interval(self._system.intervals, low, high, self.flags)
+        return form if self.bounds is None else self.bounds.meet(form)
+
+    def contains_zero(self) -> Mask:
+        """False only where f certainly has no zero; true for a form that overflowed."""
+        excluded = or_(gt(absolute(self.centre), self.reach()), self.empty)
+        if self.bounds is not None:
+            excluded = or_(excluded, not_(self.bounds.contains_zero()))
+        return not_(excluded)
+
+    def contract(self, symbol: int = 0) -> Contraction:
+        """Where along one symbol f can be 0, and whether it certainly changes sign; see ``Contraction``."""
+        return contraction.contract(self, symbol)
+
+    def make(
+        self,
+        centre: Scalar,
+        terms: tuple[Scalar, ...],
+        error: Scalar,
+        budget: Budget,
+        flags: Flags | None = None,
+        bounds: Interval | None = None,
+    ) -> Affine:
+        """A number of the same system, by default with the same flags."""
+        return Affine(self._system, centre, terms, error, budget, self.flags if flags is None else flags, bounds)
+
+    def within(self, bounds: Interval | None) -> Affine:
+        """This form with another interval that holds the same function, where the system keeps intervals."""
+        if bounds is None or not self._system.intersect:
+            return self
+        return self.make(self.centre, self.terms, self.error, self.budget, bounds=bounds)
+
+    add = arithmetic.add
+    sub = arithmetic.sub
+    neg = arithmetic.neg
+    mul = arithmetic.mul
+    div = functions.divide
+    sqr = arithmetic.sqr
+    powi = arithmetic.powi
+    abs = choice.absolute
+    sign = choice.sign
+    floor = choice.floor
+    mod = choice.mod
+    max = choice.larger
+    min = choice.smaller
+    pow = functions.power
+    powr = functions.rational_power
+    cbrt = functions.cbrt
+    sqrt = functions.sqrt
+    exp = functions.exp
+    log = functions.log
+    sin = functions.sin
+    cos = functions.cos
+    tan = functions.tan
+    asin = functions.asin
+    acos = functions.acos
+    atan = functions.atan
+    atan2 = functions.atan2
+    sinh = functions.sinh
+    cosh = functions.cosh
+    tanh = functions.tanh
+    lt = choice.less
+    le = choice.less_equal

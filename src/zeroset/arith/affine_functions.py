@@ -1,0 +1,179 @@
+"""Division, roots, exponentials and powers of affine forms, each an ``Expansion`` given to ``linearise``.
+
+With p the point of expansion and x = p + d, the remainder f(x) - f(p) - f'(p) d is w d**2; each function here says what w
+is. By Taylor w is the mean of f''/2 between p and x, the end p counting twice: where f'' is convex, w <= f''(p)/3 + f''(x)/6.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from zeroset.arith import elementary
+from zeroset.arith import scalar as s
+from zeroset.arith.affine_circular import acos, asin, atan, atan2, cos, sin, tan
+from zeroset.arith.interval import Interval
+from zeroset.arith.interval_arithmetic import literal_reciprocal
+from zeroset.arith.linearise import Expansion, linearise, narrower, point
+from zeroset.arith.scalar import (
+    Mask, Scalar, absolute, and_, fma, gt, lt, maximum, minimum, or_, select,
+)  # fmt: skip
+
+if TYPE_CHECKING:
+    from zeroset.arith.affine import Affine
+
+__all__ = [
+    "acos", "asin", "atan", "atan2", "cbrt", "cos", "cosh", "divide", "exp", "log", "narrower", "power",
+    "rational_power", "sin", "sinh", "sqrt", "tan", "tanh",
+]  # fmt: skip
+
+
+def _reciprocal(a: Affine) -> tuple[Affine, Mask]:
+    """1/a, and where ``a`` certainly keeps away from 0; w = 1/(p**2 x), exactly."""
+    fmt, p, x = a.fmt, point(a), a.interval()
+    enclosure = x.literal(1.0).div(x)
+    regular = or_(gt(x.lo, fmt.tiny), lt(x.hi, -fmt.tiny))
+    value = s.div(1.0, p)
+    steep = value * value
+    low, high = steep * minimum(enclosure.lo, 0.0), steep * maximum(enclosure.hi, 0.0)
+    return linearise(a, enclosure, Expansion(value, -steep, low, high, 1.0, 3.0, valid=regular)), regular
+
+
+def divide(a: Affine, b: Affine) -> Affine:
+    """a / b; the whole line where ``b`` may be 0."""
+    if b.is_constant:
+        divisor = b.interval()
+        if divisor.lo > b.fmt.tiny or divisor.hi < -b.fmt.tiny:
+            return a.mul(a.system.constant(*literal_reciprocal(divisor)))
+    inverse, regular = _reciprocal(b)
+    quotient = a.mul(inverse)
+    error = select(regular, quotient.error, 2 * a.fmt.big, like=b.centre)
+    bounds = a.interval().div(b.interval()) if a.system.intersect else None
+    return quotient.make(quotient.centre, quotient.terms, error, quotient.budget, bounds=bounds)
+
+
+def sqrt(a: Affine) -> Affine:
+    """The square root: w = -1/(2 q (sqrt(x) + q)**2) with q = sqrt(p), which holds down to x = 0."""
+    p, x = point(a), a.interval()
+    enclosure = x.sqrt()
+    value = s.sqrt(maximum(p, 0.0))
+    slope = s.div(1.0, value + value)
+    total = enclosure.lo + value
+    low = -s.div(slope, total * total)
+    return linearise(a, enclosure, Expansion(value, slope, low, 0.0, 1.0, 3.0, valid=gt(p, a.fmt.tiny)))
+
+
+def cbrt(a: Affine) -> Affine:
+    """The cube root: w = -(2 q + y)/(3 q**2 (y**2 + y q + q**2)**2) for y = cbrt(x), q = cbrt(p) of one sign.
+
+    Its size falls as |y| grows.
+    """
+    fmt, p, x = a.fmt, point(a), a.interval()
+    enclosure = x.cbrt()
+    value = elementary.cbrt(fmt, p)
+    error = elementary.error_bound("cbrt", fmt)
+    q, y = absolute(value), maximum(maximum(enclosure.lo, s.neg(enclosure.hi)), 0.0)
+    slope = s.div(1.0 / 3.0, q * q)
+    base = fma(y, y, fma(y, q, q * q))
+    size = s.div(slope * (q + q + y), base * base)
+    above, below = gt(x.lo, fmt.tiny), lt(x.hi, -fmt.tiny)
+    low, high = select(above, -size, 0.0), select(above, 0.0, size)
+    expansion = Expansion(
+        value, slope, low, high, error.relative, 2 * error.relative + 4, error.absolute, or_(above, below)
+    )
+    return linearise(a, enclosure, expansion)
+
+
+def exp(a: Affine) -> Affine:
+    """The exponential: f'' is convex, and w is never negative."""
+    fmt, p, x = a.fmt, point(a), a.interval()
+    enclosure = x.exp()
+    value = elementary.exp(fmt, p)
+    error = elementary.error_bound("exp", fmt)
+    high = fma(enclosure.hi, 1.0 / 6.0, value * (1.0 / 3.0))
+    # Where exp stops at big or loses relative accuracy near tiny the slope is not the value.
+    valid = and_(lt(enclosure.hi, fmt.big), gt(enclosure.lo, 2 * fmt.tiny))
+    return linearise(
+        a, enclosure, Expansion(value, value, 0.0, high, error.relative, error.relative, error.absolute, valid)
+    )
+
+
+def log(a: Affine) -> Affine:
+    """The logarithm: -f'' = 1/x**2 is convex, and w is never positive."""
+    fmt, p, x = a.fmt, point(a), a.interval()
+    enclosure = x.log()
+    error = elementary.error_bound("log", fmt)
+    slope, steepest = s.div(1.0, p), s.div(1.0, x.lo)
+    low = -fma(slope * slope, 1.0 / 3.0, (steepest * steepest) * (1.0 / 6.0))
+    expansion = Expansion(elementary.log(fmt, p), slope, low, 0.0, error.relative, 2.0, valid=gt(x.lo, fmt.tiny))
+    return linearise(a, enclosure, expansion)
+
+
+def sinh(a: Affine) -> Affine:
+    """The hyperbolic sine: f'' = f."""
+    return _hyperbolic(a, "sinh", "cosh")
+
+
+def cosh(a: Affine) -> Affine:
+    """The hyperbolic cosine: f'' = f."""
+    return _hyperbolic(a, "cosh", "sinh")
+
+
+def _hyperbolic(a: Affine, name: str, derivative: str) -> Affine:
+    fmt, p, x = a.fmt, point(a), a.interval()
+    enclosure: Interval = getattr(x, name)()
+    value, slope = getattr(elementary, name)(fmt, p), getattr(elementary, derivative)(fmt, p)
+    error = elementary.error_bound(name, fmt)
+    low = 0.0 if enclosure.nonnegative else 0.5 * minimum(enclosure.lo, 0.0)
+    valid = and_(lt(enclosure.hi, fmt.big), gt(enclosure.lo, -fmt.big))
+    accuracy = elementary.error_bound(derivative, fmt).relative
+    absolute_error = error.absolute + fmt.tiny * a.reach()
+    high = 0.5 * maximum(enclosure.hi, 0.0)
+    return linearise(a, enclosure, Expansion(value, slope, low, high, error.relative, accuracy, absolute_error, valid))
+
+
+def tanh(a: Affine) -> Affine:
+    """The hyperbolic tangent: f''/2 = -t (1 - t**2), largest where |t| = 1/sqrt 3."""
+    fmt, p, x = a.fmt, point(a), a.interval()
+    enclosure = x.tanh()
+    value = elementary.tanh(fmt, p)
+    error = elementary.error_bound("tanh", fmt).relative
+    slope = (1.0 - value) * (1.0 + value)
+    least = maximum(maximum(enclosure.lo, s.neg(enclosure.hi)), 0.0)
+    width = minimum((1.0 - least) * (1.0 + least) + 8 * fmt.eps, 1.0)
+    high = minimum(-minimum(enclosure.lo, 0.0) * width, 0.385)
+    low = maximum(-maximum(enclosure.hi, 0.0) * width, -0.385)
+    # Next to 1 the slope's error is that of t, absolute.
+    spread = (2 * error + 4) * fmt.eps * a.reach()
+    return linearise(a, enclosure, Expansion(value, slope, low, high, error, 4.0, spread))
+
+
+def power(a: Affine, b: Affine) -> Affine:
+    """a**b = exp(b log a)."""
+    enclosure = a.interval().pow(b.interval())
+    return narrower(exp(b.mul(log(a))), enclosure)
+
+
+def rational_power(a: Affine, exponent: tuple[int, int]) -> Affine:
+    """a**(p/q); w is c x**(p/q-2) up to its mean, c = (p/q)(p/q-1)/2, and monotone."""
+    p, q = exponent
+    if p < 0:
+        return a.literal(1.0).div(rational_power(a, (-p, q)))
+    x = a.interval()
+    enclosure = x.powr(exponent)
+    if not elementary.by_roots(exponent):
+        ratio = a.literal(float(p)).div(a.literal(float(q)))
+        return narrower(exp(log(a).mul(ratio)), enclosure)
+    return linearise(a, enclosure, _power_expansion(a, x, exponent))
+
+
+def _power_expansion(a: Affine, x: Interval, exponent: tuple[int, int]) -> Expansion:
+    fmt, at = a.fmt, point(a)
+    ratio = exponent[0] / exponent[1]
+    value = elementary.powr(fmt, at, exponent)
+    slope = s.div(value * fmt.round(ratio), at)
+    edge: Scalar = x.lo if ratio < 2 else x.hi
+    bend = s.div(elementary.powr(fmt, edge, exponent), edge * edge) * fmt.round(0.5 * ratio * (ratio - 1))
+    low, high = (bend, 0.0) if ratio < 1 else (0.0, bend)
+    error = elementary.power_error(exponent)
+    grown = fmt.up(1.0 + error * fmt.eps)
+    return Expansion(value, slope, s.mul(low, grown), s.mul(high, grown), error, error + 4, valid=gt(x.lo, fmt.tiny))

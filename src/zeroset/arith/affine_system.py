@@ -1,0 +1,94 @@
+"""The system that makes affine forms: leaves, symbols, and the flat form that loops carry."""
+
+from __future__ import annotations
+
+from zeroset.arith.affine import Affine
+from zeroset.arith.budget import Budget, quanta, repaid
+from zeroset.arith.flags import Flags
+from zeroset.arith.format import Format
+from zeroset.arith.interval import Interval, IntervalSystem
+from zeroset.arith.number import System
+from zeroset.arith.scalar import Scalar, is_zero, maximum, sub
+
+__all__ = ["AffineSystem"]
+
+
+class AffineSystem(System[Affine]):
+    """Makes affine forms.
+
+    Args:
+        fmt: format of the scalars.
+        symbols: how many shared symbols a form has: 1 for a ray, 3 for a beam.
+        intersect: whether an interval goes along with each form.
+
+    Attributes:
+        symbols: as given.
+        intersect: as given.
+        intervals: the system of the ranges.
+    """
+
+    def __init__(self, fmt: Format, symbols: int = 1, intersect: bool = False) -> None:
+        self._fmt = fmt
+        self.symbols = symbols
+        self.intersect = intersect
+        self.intervals = IntervalSystem(fmt)
+
+    @property
+    def fmt(self) -> Format:
+        """The floating-point format of the scalars."""
+        return self._fmt
+
+    def constant(self, lo: float, hi: float) -> Affine:
+        middle = self._fmt.round(0.5 * lo + 0.5 * hi)
+        widest = max(sub(self._fmt.up(hi), middle), sub(middle, self._fmt.down(lo)))
+        error = 0.0 if lo == hi == middle else self._fmt.up(widest)
+        return self._with_bounds(self.form(middle, (0.0,) * self.symbols, error), self.intervals.constant(lo, hi))
+
+    def exact(self, value: Scalar) -> Affine:
+        return self.form(value, (0.0,) * self.symbols)
+
+    def enclose(self, value: Scalar, error: Scalar) -> Affine:
+        if is_zero(error):
+            return self.exact(value)
+        form = self.form(value, (0.0,) * self.symbols, error)
+        return self._with_bounds(form, self.intervals.enclose(value, error))
+
+    def symbol(self, index: int, centre: Scalar, radius: Scalar) -> Affine:
+        """centre + radius * e_index, exactly; index counts from 0."""
+        return self.form(centre, tuple(radius if i == index else 0.0 for i in range(self.symbols)))
+
+    def form(self, centre: Scalar, terms: tuple[Scalar, ...], error: Scalar = 0.0) -> Affine:
+        """centre + sum terms_i e_i within ``error``, all taken as exact."""
+        return Affine(self, centre, terms, error)
+
+    def from_interval(self, interval: Interval) -> Affine:
+        """The form without terms that holds an interval."""
+        fmt, lo, hi = self._fmt, interval.lo, interval.hi
+        if lo is hi:
+            form = self.form(lo, (0.0,) * self.symbols)
+        else:
+            centre = 0.5 * lo + 0.5 * hi
+            error = maximum(hi - centre, centre - lo) + fmt.tiny
+            form = self.form(centre, (0.0,) * self.symbols, error)
+            form.budget = Budget(slack=0.9 * quanta(fmt), depth=2)
+        form.flags = interval.flags
+        return self._with_bounds(form, interval)
+
+    def _with_bounds(self, form: Affine, bounds: Interval) -> Affine:
+        form.bounds = bounds if self.intersect else None
+        return form
+
+    def general(self, number: Affine) -> Affine:
+        error = repaid(self._fmt, number.error, number.budget.depth)
+        bounds = number.interval() if self.intersect else None
+        return Affine(self, number.centre, number.terms, error, Budget(), number.flags, bounds)
+
+    def components(self, number: Affine) -> list[Scalar]:
+        bounds = [] if number.bounds is None else [number.bounds.lo, number.bounds.hi]
+        return [number.centre, *number.terms, number.error, *bounds, number.defined, number.empty]
+
+    def rebuild(self, components: list[Scalar]) -> Affine:
+        n = self.symbols
+        flags = Flags(components[-2], components[-1])
+        bounds = Interval(self.intervals, components[n + 2], components[n + 3], flags) if self.intersect else None
+        return Affine(self, components[0], tuple(components[1 : n + 1]), components[n + 1], Budget(), flags, bounds)

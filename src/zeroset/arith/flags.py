@@ -1,0 +1,50 @@
+"""Where a function is defined: the two masks that every enclosing number carries beside its bounds.
+
+``defined`` promises that f is defined and continuous on the whole box, which is what a proof of a root by a change of
+sign needs; ``empty`` promises that f is defined nowhere on it. Both are literals wherever that is known while
+tracing, and then cost nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from zeroset.arith.scalar import Mask, and_, not_, or_
+
+__all__ = ["TOTAL", "Flags"]
+
+
+@dataclass(frozen=True, slots=True)
+class Flags:
+    """Domain knowledge about a function on a box.
+
+    Attributes:
+        defined: certainly defined and continuous on all of the box; literally True when it always is.
+        empty: certainly defined nowhere on the box; literally False when it never is.
+    """
+
+    defined: Mask = True
+    empty: Mask = False
+
+    def meet(self, *others: Flags) -> Flags:
+        """Flags of an expression that uses all the operands."""
+        return Flags(and_(self.defined, *(o.defined for o in others)), or_(self.empty, *(o.empty for o in others)))
+
+    def within(self, defined: Mask, empty: Mask = False) -> Flags:
+        """These flags on a part of the domain: also defined only where the mask says, also empty where it says."""
+        return Flags(and_(self.defined, defined), or_(self.empty, empty))
+
+    def choose(self, other: Flags, first: Mask, second: Mask) -> Flags:
+        """Flags of "self where ``first``, other where ``second``", a jump being possible where neither is certain."""
+        if first is True:
+            return self
+        if second is True:
+            return other
+        undecided = not_(or_(first, second))
+        return Flags(
+            or_(and_(first, self.defined), and_(second, other.defined)),
+            or_(and_(first, self.empty), and_(second, other.empty), and_(undecided, self.empty, other.empty)),
+        )
+
+
+TOTAL = Flags()

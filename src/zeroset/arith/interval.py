@@ -1,0 +1,194 @@
+"""Intervals: lower and upper bounds that hold in the arithmetic that runs.
+
+After Knoll et al. 2009, section 3.2 (doi:10.1111/j.1467-8659.2008.01189.x), with tight squares and even powers, division
+by intervals that hold 0, and explicit outward rounding (``rounding``). The contract: an interval holds f at every point of
+the box where f is defined and no intermediate value exceeds ``fmt.big`` (5e33 in f32). Bounds are always finite; one at or
+beyond +-big claims nothing on its side.
+"""
+
+from __future__ import annotations
+
+from zeroset.arith import interval_arithmetic as arithmetic
+from zeroset.arith import interval_functions as functions
+from zeroset.arith.condition import Undecided
+from zeroset.arith.flags import TOTAL, Flags
+from zeroset.arith.format import Format
+from zeroset.arith.number import Number, System
+from zeroset.arith.rounding import lower, upper
+from zeroset.arith.scalar import (
+    Mask, Scalar, ge, gt, is_literal, is_zero, le, lt, maximum, minimum, not_, or_, select,
+)  # fmt: skip
+
+__all__ = ["Interval", "IntervalCondition", "IntervalSystem"]
+
+
+class Interval(Number):
+    """All the reals between two bounds.
+
+    Attributes:
+        lo: lower bound, a scalar.
+        hi: upper bound, a scalar, not below ``lo``.
+        flags: where f is defined on the box that these are bounds for.
+        nonnegative: whether ``lo >= 0`` is known while tracing; saves operations.
+
+    Example:
+        >>> from zeroset.arith import F64, IntervalSystem
+        >>> x = IntervalSystem(F64).constant(-1.0, 2.0)
+        >>> x.sqr().lo, x.sqr().hi > 4
+        (0.0, True)
+    """
+
+    __slots__ = ("_system", "flags", "hi", "lo", "nonnegative")
+
+    def __init__(
+        self, system: IntervalSystem, lo: Scalar, hi: Scalar, flags: Flags = TOTAL, nonnegative: bool = False
+    ) -> None:
+        self._system = system
+        self.lo = lo
+        self.hi = hi
+        self.flags = flags
+        self.nonnegative = nonnegative or (is_literal(lo) and lo >= 0)
+
+    def __repr__(self) -> str:
+        return f"Interval({self.lo!r}, {self.hi!r})"
+
+    @property
+    def system(self) -> IntervalSystem:
+        """The system that made this number."""
+        return self._system
+
+    @property
+    def fmt(self) -> Format:
+        """The floating-point format of the bounds."""
+        return self._system.fmt
+
+    @property
+    def defined(self) -> Mask:
+        """Whether f is certainly defined and continuous on the whole box."""
+        return self.flags.defined
+
+    @property
+    def empty(self) -> Mask:
+        """Whether f is certainly defined nowhere on the box."""
+        return self.flags.empty
+
+    def make(self, lo: Scalar, hi: Scalar, flags: Flags | None = None, nonnegative: bool = False) -> Interval:
+        """An interval of the same system, by default with the same flags."""
+        return Interval(self._system, lo, hi, self.flags if flags is None else flags, nonnegative)
+
+    def is_point(self, value: float) -> bool:
+        """Whether this is literally the number ``value``, everywhere defined."""
+        return is_literal(self.lo, self.hi) and self.lo == self.hi == value and self.flags == TOTAL
+
+    def contains_zero(self) -> Mask:
+        """False only where f certainly has no zero; true for bounds that are NaN."""
+        return not_(or_(gt(self.lo, 0.0), lt(self.hi, 0.0), self.empty))
+
+    def interval(self) -> Interval:
+        """This interval: the range of a number, on every enclosing system."""
+        return self
+
+    def meet(self, other: Interval) -> Interval:
+        """The intersection of two enclosures of the same function."""
+        lo, hi = maximum(self.lo, other.lo), minimum(self.hi, other.hi)
+        return self.make(lo, hi, self.flags.meet(other.flags), self.nonnegative or other.nonnegative)
+
+    add = arithmetic.add
+    sub = arithmetic.sub
+    neg = arithmetic.neg
+    mul = arithmetic.mul
+    div = arithmetic.divide
+    sqr = arithmetic.sqr
+    powi = arithmetic.powi
+    abs = arithmetic.absolute
+    sign = arithmetic.sign
+    floor = arithmetic.floor
+    mod = arithmetic.mod
+    max = arithmetic.larger
+    min = arithmetic.smaller
+    pow = functions.power
+    powr = functions.rational_power
+    cbrt = functions.cbrt
+    sqrt = functions.sqrt
+    exp = functions.exp
+    log = functions.log
+    sin = functions.sin
+    cos = functions.cos
+    tan = functions.tan
+    asin = functions.asin
+    acos = functions.acos
+    atan = functions.atan
+    atan2 = functions.atan2
+    sinh = functions.sinh
+    cosh = functions.cosh
+    tanh = functions.tanh
+
+    def lt(self, other: Interval) -> IntervalCondition:
+        """Certain where the intervals do not overlap."""
+        return IntervalCondition(lt(self.hi, other.lo), ge(self.lo, other.hi), *_both(self, other))
+
+    def le(self, other: Interval) -> IntervalCondition:
+        """Certain where the intervals do not overlap."""
+        return IntervalCondition(le(self.hi, other.lo), gt(self.lo, other.hi), *_both(self, other))
+
+
+def _both(a: Interval, b: Interval) -> tuple[Flags, Scalar]:
+    """The flags of a comparison, and a scalar that shows the run-time type if there is one."""
+    bounds = (a.lo, a.hi, b.lo, b.hi)
+    return a.flags.meet(b.flags), next((bound for bound in bounds if not is_literal(bound)), bounds[0])
+
+
+class IntervalCondition(Undecided[Interval]):
+    """A comparison of intervals."""
+
+    __slots__ = ()
+
+    def select(self, a: Interval, b: Interval) -> Interval:
+        """One of two intervals, or their hull where the condition is undecided."""
+        lo = select(self.true, a.lo, select(self.false, b.lo, minimum(a.lo, b.lo), self.like), self.like)
+        hi = select(self.true, a.hi, select(self.false, b.hi, maximum(a.hi, b.hi), self.like), self.like)
+        flags = a.flags.choose(b.flags, self.true, self.false).meet(self.flags)
+        return a.make(lo, hi, flags, a.nonnegative and b.nonnegative)
+
+
+class IntervalSystem(System[Interval]):
+    """Makes intervals.
+
+    Args:
+        fmt: format of the scalars.
+    """
+
+    def __init__(self, fmt: Format) -> None:
+        self._fmt = fmt
+
+    @property
+    def fmt(self) -> Format:
+        """The floating-point format of the bounds."""
+        return self._fmt
+
+    def constant(self, lo: float, hi: float) -> Interval:
+        """The tightest interval of the format around [lo, hi]."""
+        return Interval(self, self._fmt.down(lo), self._fmt.up(hi))
+
+    def bounds(self, lo: Scalar, hi: Scalar) -> Interval:
+        """The interval between two run-time scalars, taken as exact."""
+        return Interval(self, lo, hi)
+
+    def enclose(self, value: Scalar, error: Scalar) -> Interval:
+        """value +- error, rounded outward."""
+        if is_zero(error):
+            return Interval(self, value, value)
+        return Interval(self, lower(self._fmt, value - error), upper(self._fmt, value + error))
+
+    def general(self, number: Interval) -> Interval:
+        """The interval without what is known while tracing."""
+        return Interval(self, number.lo, number.hi, number.flags)
+
+    def components(self, number: Interval) -> list[Scalar]:
+        """lo, hi, defined, empty."""
+        return [number.lo, number.hi, number.defined, number.empty]
+
+    def rebuild(self, components: list[Scalar]) -> Interval:
+        """The interval of these four."""
+        lo, hi, defined, empty = components
+        return Interval(self, lo, hi, Flags(defined, empty))

@@ -1,0 +1,80 @@
+"""``zeroset gallery``: the named surfaces as a list, or all of them on one sheet."""
+
+from __future__ import annotations
+
+import click
+
+from zeroset.cli.progress import Progress
+from zeroset.cli.source import existing_folder
+
+CELL_TEXT = 18
+
+
+@click.command("gallery")
+@click.argument("name", required=False)
+@click.option("--sheet", metavar="FILE", help="Draw every surface into one picture.")
+@click.option("--cell", default=192, show_default=True, type=click.IntRange(32, 1024), help="Pixels a surface on the sheet.")
+@click.option("-m", "--method", default="auto", show_default=True, help="Ray method.")
+@click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
+def command(name: str | None, sheet: str | None, cell: int, method: str, device: str) -> None:
+    """List the surfaces, tell all about NAME, or draw a contact sheet."""
+    if sheet is not None:
+        _draw_sheet(sheet, cell, method, device)
+    elif name is not None:
+        _describe(name)
+    else:
+        _list()
+
+
+def _list() -> None:
+    from zeroset.gallery import entry, names
+
+    width = max(map(len, names()))
+    for name in names():
+        item = entry(name)
+        degree = str(item.degree) if item.degree else "-"
+        papers = ", ".join(dict.fromkeys(source.paper for source in item.source))
+        click.echo(f"{name:{width}}  {degree:>3}  {papers:10}  {item.title}")
+    click.echo(f"\n{len(names())} surfaces; any other Chmutov surface as chmutov-N. Draw one: zeroset render NAME -o out.png")
+
+
+def _describe(name: str) -> None:
+    from zeroset.gallery import entry
+
+    item = entry(name)
+    click.echo(f"{item.title}\n\n  {item.formula}\n")
+    for key, value in {**item.params, **{k: f"{len(v)} numbers" for k, v in item.arrays.items()}}.items():
+        click.echo(f"  {key} = {value}")
+    for source in item.source:
+        figures = f", figures {', '.join(source.figures)}" if source.figures else ""
+        click.echo(f"  {source.paper}, {source.where}{figures}")
+    if item.note:
+        click.echo(f"\n{item.note}")
+
+
+def _draw_sheet(path: str, cell: int, method: str, device: str) -> None:
+    import io
+
+    from PIL import Image, ImageDraw
+
+    from zeroset.atomic import replacing
+    from zeroset.render.render import render
+    from zeroset.shelf import gallery
+
+    target = existing_folder(path)
+    columns = 8
+    rows = -(-len(gallery) // columns)
+    page = Image.new("RGB", (columns * cell, rows * (cell + CELL_TEXT)), "white")
+    pen = ImageDraw.Draw(page)
+    with Progress("drawing the gallery") as progress:
+        for i, name in enumerate(gallery):
+            progress(i / len(gallery))
+            picture = render(gallery[name], cell, method=method, device=device)
+            x, y = i % columns * cell, i // columns * (cell + CELL_TEXT)
+            page.paste(Image.fromarray(picture.pixels), (x, y))
+            pen.text((x + cell // 2, y + cell + 2), name, fill="black", anchor="mt")
+    data = io.BytesIO()
+    page.save(data, "PNG")
+    with replacing(target) as file:
+        file.write(data.getvalue())
+    click.echo(f"{target}: {len(gallery)} surfaces")

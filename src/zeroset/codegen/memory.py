@@ -1,0 +1,126 @@
+"""Loads, stores and atomics of W lanes at once.
+
+A uniform index is one scalar access. The dispatch index itself, or it plus something uniform, is one vector access;
+any other index is a gather or scatter. Whatever the lanes that are not active hold as an index, they touch no memory:
+vector accesses carry the mask. Indices are signed 32-bit, so a buffer holds fewer than 2^31 elements.
+"""
+
+from __future__ import annotations
+
+from zeroset.codegen.writer import SCALARS, Writer
+from zeroset.kernel.types import Buffer
+from zeroset.kernel.value import Instruction, Value
+
+_COMBINE = {
+    "atomic_add": {"i": "add", "u": "add"},
+    "atomic_min": {"i": "min", "u": "umin"},
+    "atomic_max": {"i": "max", "u": "umax"},
+}
+
+
+class Memory:
+    """The buffers of the function being written."""
+
+    def __init__(self, writer: Writer, buffers: tuple[Buffer, ...]) -> None:
+        self.writer = writer
+        self.pointers = {buffer.name: f"%buffer{i}" for i, buffer in enumerate(buffers)}
+        self.types = {buffer.name: buffer.type for buffer in buffers}
+        self.writable = {buffer.name: buffer.writable for buffer in buffers}
+
+    def load(self, instruction: Instruction) -> None:
+        """Write a load; lanes that are not active get zero."""
+        writer, name = self.writer, instruction.attributes[0]
+        (index,), (result,) = instruction.operands, instruction.results
+        type_ = self.types[name]
+        if not writer.is_varying(result):
+            text = writer.assign(f"load {SCALARS[type_.name]}, ptr {self._place(name, index)}, align {type_.size}")
+        elif (start := self._contiguous(index)) is not None:
+            text = self._masked("load", name, ("ptr", self._start(name, start)))
+        else:
+            text = self._masked("gather", name, (f"<{writer.width} x ptr>", self._places(name, index)))
+        writer.define(result, text)
+
+    def store(self, instruction: Instruction) -> None:
+        """Write a store of the active lanes."""
+        writer, name = self.writer, instruction.attributes[0]
+        index, value = instruction.operands
+        start = self._contiguous(index)
+        if start is not None:
+            self._masked("store", name, ("ptr", self._start(name, start)), writer.vector(value))
+        else:
+            self._masked("scatter", name, (f"<{writer.width} x ptr>", self._places(name, index)), writer.vector(value))
+
+    def _masked(self, what: str, name: str, place: tuple[str, str], value: str | None = None) -> str:
+        """One of LLVM's masked intrinsics; a store gives back nothing worth reading."""
+        writer, type_ = self.writer, self.types[name]
+        vector, bits = writer.vectors[type_.name], writer.bits(writer.mask)
+        pointer = f"v{writer.width}p0" if place[0] != "ptr" else "p0"
+        intrinsic = f"llvm.masked.{what}.{writer.suffix(type_, True)}.{pointer}"
+        aligned = f"{place[0]} align {type_.size} {place[1]}"
+        if value is None:
+            writer.declarations.add(f"declare {vector} @{intrinsic}({place[0]}, {writer.bits_type}, {vector})")
+            otherwise = f"{vector} zeroinitializer"
+            return writer.assign(f"call {vector} @{intrinsic}({aligned}, {writer.bits_type} {bits}, {otherwise})")
+        writer.declarations.add(f"declare void @{intrinsic}({vector}, {place[0]}, {writer.bits_type})")
+        writer.line(f"call void @{intrinsic}({vector} {value}, {aligned}, {writer.bits_type} {bits})")
+        return ""
+
+    def _place(self, name: str, index: Value) -> str:
+        return self._start(name, self.writer.scalar(index))
+
+    def _start(self, name: str, index: str) -> str:
+        scalar = SCALARS[self.types[name].name]
+        return self.writer.assign(f"getelementptr {scalar}, ptr {self.pointers[name]}, i32 {index}")
+
+    def _places(self, name: str, index: Value) -> str:
+        scalar = SCALARS[self.types[name].name]
+        lanes = f"<{self.writer.width} x i32> {self.writer.vector(index)}"
+        return self.writer.assign(f"getelementptr {scalar}, ptr {self.pointers[name]}, {lanes}")
+
+    def _contiguous(self, index: Value) -> str | None:
+        """The first lane's index where the lanes' indices follow one another, else None."""
+        definition = index.definition
+        if definition is None:
+            return None
+        if definition.op == "index":
+            return "%packet"
+        if definition.op in ("convert", "bitcast") and definition.operands[0].type.kind in "iu":
+            return self._contiguous(definition.operands[0])
+        if definition.op not in ("add", "sub"):
+            return None
+        a, b = definition.operands
+        if definition.op == "add" and not self.writer.is_varying(a):
+            a, b = b, a
+        if self.writer.is_varying(b):
+            return None
+        start = self._contiguous(a)
+        return None if start is None else self.writer.assign(f"{definition.op} i32 {start}, {self.writer.scalar(b)}")
+
+    def atomic(self, instruction: Instruction) -> None:
+        """Write a loop over the active lanes, first lane first, one ``atomicrmw`` each."""
+        writer, name = self.writer, instruction.attributes[0]
+        index, value = instruction.operands
+        (result,) = instruction.results
+        operation = _COMBINE[instruction.op][result.type.kind]
+        width, lanes = writer.width, f"<{writer.width} x i32>"
+        indices, values = writer.vector(index), writer.vector(value)
+        packed = writer.assign(f"bitcast {writer.bits_type} {writer.bits(writer.mask)} to i{width}")
+        todo = writer.assign(f"zext i{width} {packed} to i32")
+        before, loop, after = writer.block, writer.fresh("lanes"), writer.fresh("done")
+        left, given, rest, old = (f"%{writer.fresh()}" for _ in range(4))
+        # Some lane is always active where code runs, so the loop may test at its end.
+        writer.jump(loop)
+        writer.label(loop)
+        writer.line(f"{left} = phi i32 [ {todo}, %{before} ], [ {rest}, %{loop} ]")
+        writer.line(f"{given} = phi {lanes} [ zeroinitializer, %{before} ], [ {old}, %{loop} ]")
+        lane = writer.call("llvm.cttz.i32", "i32", ("i32", left), ("i1", "true"))
+        at = writer.assign(f"extractelement {lanes} {indices}, i32 {lane}")
+        what = writer.assign(f"extractelement {lanes} {values}, i32 {lane}")
+        place = self._start(name, at)
+        was = writer.assign(f"atomicrmw {operation} ptr {place}, i32 {what} monotonic, align 4")
+        writer.line(f"{old} = insertelement {lanes} {given}, i32 {was}, i32 {lane}")
+        less = writer.assign(f"sub i32 {left}, 1")
+        writer.line(f"{rest} = and i32 {left}, {less}")
+        writer.branch(writer.assign(f"icmp eq i32 {rest}, 0"), after, loop)
+        writer.label(after)
+        writer.define(result, old)

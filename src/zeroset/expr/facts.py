@@ -1,0 +1,97 @@
+"""What is known of a node without evaluating it: its domain, its sign, the names in it.
+
+The rewriter may drop a part (`0*x`) only if that part is defined everywhere, and may write sqrt(u)^2 = u
+only if u is never negative. Both are derived bottom-up, once for each node, from the operator table.
+A sign is a statement about the points where the node is defined.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from zeroset.expr.limits import POWER
+from zeroset.expr.ops import OPS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from zeroset.expr.dag import Data, Expr
+
+TOTAL = 1
+"""Defined at every real point."""
+NONNEGATIVE = 2
+"""Never below zero where defined."""
+POSITIVE = 4
+"""Above zero where defined."""
+CONDITION = 8
+"""A truth, not a number."""
+
+_EVEN = range(0, POWER + 1, 2)
+_SIGNS = {"": 0, "nonnegative": NONNEGATIVE, "positive": NONNEGATIVE | POSITIVE}
+
+
+def flags_of(op: str, args: Sequence[Expr], data: Data) -> int:
+    """The facts of a new node, from those of its arguments."""
+    if not args:
+        return TOTAL | (_sign_of_constant(data[0]) if op == "const" else 0)
+    row = OPS[op]
+    flags = _sign(op, args, data)
+    if row.kind == "condition":
+        flags |= CONDITION
+    every = args[0].flags
+    for arg in args[1:]:
+        every &= arg.flags
+    if every & TOTAL and (row.total or _inside_domain(op, args)):
+        flags |= TOTAL
+    return flags
+
+
+def _sign_of_constant(value: object) -> int:
+    """pi is the only constant that is no fraction."""
+    if isinstance(value, Fraction):
+        return NONNEGATIVE * (value >= 0) | POSITIVE * (value > 0)
+    return NONNEGATIVE | POSITIVE
+
+
+def _inside_domain(op: str, args: Sequence[Expr]) -> bool:
+    """Whether the arguments of a partial function can only lie where it is defined."""
+    match op:
+        case "sqrt" | "powr":
+            return bool(args[0].flags & NONNEGATIVE)
+        case "log" | "pow":
+            return bool(args[0].flags & POSITIVE)
+        case "div" | "mod":
+            return bool(args[1].flags & POSITIVE)
+    return False
+
+
+def _sign(op: str, args: Sequence[Expr], data: Data) -> int:
+    """The sign flags of a new node."""
+    first = args[0].flags & (NONNEGATIVE | POSITIVE)
+    last = args[-1].flags & (NONNEGATIVE | POSITIVE)
+    match op:
+        case "add" | "max":
+            both = first & last & NONNEGATIVE
+            if op == "max":
+                return first | last
+            return both | ((first | last) & POSITIVE if both else 0)
+        case "mul" | "div" | "min":
+            return first & last
+        case "select":
+            return args[1].flags & last
+        case "powi":
+            return first | (NONNEGATIVE if data[0] in _EVEN else 0)
+        case "mod":
+            return last & NONNEGATIVE if last & POSITIVE else 0
+        case "floor":
+            return first & NONNEGATIVE
+        case "ceil":
+            return first
+        case "sum":
+            # A sum over no elements is zero.
+            return first & NONNEGATIVE
+    sign = OPS[op].sign
+    if sign == "kept":
+        return first
+    return NONNEGATIVE | first & POSITIVE if sign == "magnitude" else _SIGNS[sign]

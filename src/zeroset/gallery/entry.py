@@ -1,0 +1,97 @@
+"""What the gallery knows of one surface: plain values, no parsed formula and no kernel.
+
+Entries stay plain so that listing the gallery, or showing where an equation comes from, costs no
+parsing of formulas. The package root turns an entry into a surface when someone asks for one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["BallBounds", "BoxBounds", "GalleryEntry", "Source", "Vector", "View"]
+
+Vector = tuple[float, float, float]
+"""Three coordinates x, y, z."""
+
+
+def _no_params() -> Mapping[str, float]:
+    return MappingProxyType({})
+
+
+def _no_arrays() -> Mapping[str, tuple[float, ...]]:
+    return MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class BallBounds:
+    """The part of the surface inside a ball is shown."""
+
+    center: Vector
+    radius: float
+
+
+@dataclass(frozen=True)
+class BoxBounds:
+    """The part of the surface inside an axis-parallel box is shown, from `min` to `max`."""
+
+    min: Vector
+    max: Vector
+
+
+@dataclass(frozen=True)
+class View:
+    """A perspective camera at `eye` looking at `target`; `fov` is the vertical opening in degrees."""
+
+    eye: Vector
+    target: Vector
+    up: Vector
+    fov: float
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where an equation is printed.
+
+    Attributes:
+        paper: "SN10" (Singh & Narayanan 2010) or "K09" (Knoll et al. 2009).
+        where: The place in the paper: "Appendix A, cubic 1", "Table A1".
+        figures: Numbers of the paper's figures that show the surface: ("4", "12").
+    """
+
+    paper: str
+    where: str
+    figures: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class GalleryEntry:
+    """One surface of the gallery.
+
+    Attributes:
+        name: Its key: lower-case words joined by hyphens.
+        title: Its name for people.
+        formula: Text of the formula language, on one line.
+        params: Values of the formula's parameters. `w` (time) is a variable and never here.
+        arrays: Values of its array parameters (sphere centres and radii), all of one length.
+        bounds: The region in which the surface is shown.
+        camera: The view that shows it as its figure does, or as it is usually shown.
+        degree: Of the polynomial; 0 for a formula that is none.
+        source: The papers it is printed in.
+        note: What was corrected in the printed equation, and why; empty where it is as printed.
+    """
+
+    name: str
+    title: str
+    formula: str
+    bounds: BallBounds | BoxBounds
+    camera: View
+    degree: int
+    source: tuple[Source, ...]
+    params: Mapping[str, float] = field(default_factory=_no_params)
+    arrays: Mapping[str, tuple[float, ...]] = field(default_factory=_no_arrays)
+    note: str = ""

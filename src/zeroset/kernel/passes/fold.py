@@ -1,0 +1,113 @@
+"""Constant folding, and laws that hold bit for bit.
+
+Constants meet through ``OPS[...].evaluate``, the definition of each operation, and only where the result is finite:
+kernels hold no other constants. The laws are those that IEEE arithmetic keeps for every operand, NaN, infinities and
+the sign of zero included (``x - 0`` is x, ``x + 0`` is not; ``x / 4`` is ``x * 0.25``, ``x / 3`` stays).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from zeroset.kernel.build import Kernel
+from zeroset.kernel.ops import OPS
+from zeroset.kernel.passes.laws import LAWS
+from zeroset.kernel.passes.rewriter import Rewriter
+from zeroset.kernel.types import BOOL, TYPES, Type
+from zeroset.kernel.value import Instruction, Value, constant_value
+
+
+class Folder(Rewriter):
+    """A copy in which constants are computed and laws applied."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._constants: dict[int, Any] = {}
+
+    def instruction(self, instruction: Instruction) -> None:
+        """Copy an instruction, or bind its result to what it equals."""
+        if instruction.regions:
+            self._control(instruction)
+            return
+        operands = self.all(instruction.operands)
+        value = self._simplify(instruction, operands)
+        if value is None:
+            self.bind(instruction.results, self.make(instruction, operands).results)
+        else:
+            self.values[id(instruction.results[0])] = value
+
+    def _simplify(self, instruction: Instruction, operands: tuple[Value, ...]) -> Value | None:
+        op = OPS[instruction.op]
+        if op.evaluate is None or not operands:
+            return operands[0] if instruction.op == "any" and self.is_constant(operands[0]) else None
+        if all(map(self.is_constant, operands)):
+            return self._evaluate(instruction, operands)
+        law = LAWS.get(instruction.op)
+        return None if law is None else law(self, *operands)
+
+    def _evaluate(self, instruction: Instruction, operands: tuple[Value, ...]) -> Value | None:
+        arrays = [np.asarray([self.number(v)], v.type.dtype) for v in operands]
+        op, type_ = OPS[instruction.op], instruction.results[0].type
+        extra = (TYPES[instruction.attributes[0]],) if op.result == "attr" else ()
+        assert op.evaluate is not None
+        with np.errstate(all="ignore"):
+            result = np.asarray(op.evaluate(*arrays, *extra)).astype(type_.dtype)[0]
+        return self.constant(result, type_) if np.isfinite(result) else None
+
+    def _control(self, instruction: Instruction) -> None:
+        """Branches on constants and loops that never run vanish; the rest is copied."""
+        op = instruction.op
+        decided = self.all(instruction.operands[:1])
+        if op == "if" and self.is_constant(decided[0]):
+            region = instruction.regions[0 if self.number(decided[0]) else 1]
+            self.inside(region)
+            self.bind(instruction.results, self.all(region.yields))
+        elif op == "for" and self.is_constant(decided[0]) and self.number(decided[0]) == 0:
+            self.bind(instruction.results, self.all(instruction.operands[1:]))
+        else:
+            super().instruction(instruction)
+
+    # ------------------------------------------------------- what laws use
+
+    def is_constant(self, value: Value) -> bool:
+        """Whether a value of the copy is a literal."""
+        return value.definition is not None and value.definition.op == "const"
+
+    def number(self, value: Value) -> Any:
+        """A literal's NumPy scalar."""
+        assert value.definition is not None
+        known = self._constants.get(id(value))
+        if known is None:
+            known = self._constants[id(value)] = constant_value(value.definition)
+        return known
+
+    def is_number(self, value: Value, number: float) -> bool:
+        """Whether a value is the literal ``number``, sign of zero included."""
+        if not self.is_constant(value):
+            return False
+        known = self.number(value)
+        same_sign = value.type.kind != "f" or np.signbit(known) == np.signbit(number)
+        return bool(known == number and same_sign)
+
+    def constant(self, number: Any, type_: Type) -> Value:
+        """A literal in the block being made."""
+        text = str(bool(number)) if type_ == BOOL else repr(float(number)) if type_.kind == "f" else str(int(number))
+        return self.emit("const", (), type_, (text,))
+
+    def emit(self, op: str, operands: tuple[Value, ...], type_: Type, attributes: tuple[Any, ...] = ()) -> Value:
+        """An instruction in the block being made."""
+        made = Instruction(op, operands, attributes, (type_,))
+        self.blocks[-1].instructions.append(made)
+        return made.results[0]
+
+    def operand_of(self, value: Value, op: str) -> Value | None:
+        """The operand of a value that a one-operand operation made, else None."""
+        definition = value.definition
+        return definition.operands[0] if definition is not None and definition.op == op else None
+
+
+def fold(kernel: Kernel) -> Kernel:
+    """Compute what is constant and drop what changes nothing, bit for bit."""
+    return Folder().kernel(kernel)

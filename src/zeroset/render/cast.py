@@ -1,0 +1,149 @@
+"""``cast``: rays that the caller brings, answered with t, status, normal and steps."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from zeroset.errors import ArrayShapeError
+from zeroset.kernel.types import F32
+from zeroset.render.render import default_tolerance
+from zeroset.render.tracer import Tracer
+from zeroset.render.values import parameter_uniforms
+from zeroset.runtime import Device, get_device
+from zeroset.scene.clip import bounds_uniforms
+from zeroset.scene.scene import Scene, as_scene
+from zeroset.scene.surface import Surface
+from zeroset.solve import Method, resolve_method
+from zeroset.solve.problem import MISS
+
+FARTHEST = 1e30
+"""What stands for an infinite t: kernels know no infinity."""
+
+
+@dataclass(frozen=True)
+class Hits:
+    """What rays found, N of them.
+
+    Attributes:
+        t: (N,) float32, distance in units of \\|direction\\|; nan where nothing is hit.
+        status: (N,) uint8: MISS 0, HIT 1, UNRESOLVED 2.
+        normal: (N, 3) float32, unit gradient at the hit, towards growing f; zero where there is none.
+        steps: (N,) uint32, evaluations of f or of its extension.
+        certified: whether the method proves its answers.
+    """
+
+    t: npt.NDArray[np.float32]
+    status: npt.NDArray[np.uint8]
+    normal: npt.NDArray[np.float32]
+    steps: npt.NDArray[np.uint32]
+    certified: bool
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+
+def cast(
+    surface: Surface | Scene | str,
+    origins: npt.ArrayLike,
+    directions: npt.ArrayLike,
+    t_min: float = 0.0,
+    t_max: float = math.inf,
+    method: str | Method = "auto",
+    device: str | Device = "auto",
+    tolerance: float | None = None,
+) -> Hits:
+    """Cast rays at a surface and give each one's first hit inside the bounds.
+
+    Args:
+        surface: what to hit.
+        origins: (N, 3) or (3,) for one origin of all rays; rounded to float32.
+        directions: (N, 3) or (3,), of any length but 0; rounded to float32.
+        t_min: where the rays start.
+        t_max: where they end.
+        method: a name or an instance of a method.
+        device: where to run.
+        tolerance: world length to which roots are found; None takes 2^-14 of the bounds' extent.
+
+    Raises:
+        ArrayShapeError: wrong shapes, non-finite numbers, or a direction of length 0.
+        MethodError: the method cannot treat this surface.
+
+    Example:
+        >>> import zeroset as zs
+        >>> ball = zs.surface("x^2 + y^2 + z^2 = 1", bounds=1.5)
+        >>> hits = zs.cast(ball, [0, 0, 5], [[0, 0, -1], [0, 1, 0]])
+        >>> hits.status.tolist(), bool(abs(hits.t[0] - 4) < 1e-3)
+        ([1, 0], True)
+    """
+    chosen = resolve_method(method)
+    shown = as_scene(surface).surface
+    chosen.check(shown.field)
+    target = get_device(device)
+    starts, ways = _rays(origins, directions)
+    bounds = shown.fitted
+    if tolerance is None:
+        tolerance = default_tolerance(bounds)
+    if not (math.isfinite(tolerance) and tolerance > 0):
+        raise ArrayShapeError(f"the tolerance must be positive and finite, not {tolerance!r}")
+    if math.isnan(t_min) or math.isnan(t_max) or t_min == math.inf:
+        raise ArrayShapeError(f"t_min and t_max must be numbers with t_min finite, not {t_min!r} and {t_max!r}")
+    uniforms = bounds_uniforms(bounds) | parameter_uniforms(shown, chosen) | {"tolerance": tolerance}
+    uniforms |= {"near": max(t_min, -FARTHEST), "far": max(min(t_max, FARTHEST), -FARTHEST)}
+    tracer = Tracer(shown, chosen, target, pixels=False)
+    buffers = tracer.buffers(len(starts), 0) | _ray_buffers(target, starts, ways)
+    bound = tracer.begin(shown, uniforms, buffers, 0)
+    tracer.first_look(uniforms, bound, 0, len(starts))
+    tracer.second_look(shown, uniforms, bound)
+    return _hits(target, buffers, chosen.certified)
+
+
+def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    starts, ways = _points(origins, "origins"), _points(directions, "directions")
+    if len(starts) != len(ways):
+        if 1 not in (len(starts), len(ways)):
+            raise ArrayShapeError(f"there are {len(starts)} origins but {len(ways)} directions", hint="give as many of both, or one of either")
+        starts, ways = np.broadcast_arrays(starts, ways)
+    lengths = np.max(np.abs(ways), axis=1) if len(ways) else np.ones(0)
+    if np.any(lengths < 1e-15) or np.any(lengths > 1e15):
+        bad = int(np.flatnonzero((lengths < 1e-15) | (lengths > 1e15))[0])
+        what = "zero" if lengths[bad] == 0 else "too short or too long"
+        raise ArrayShapeError(f"direction {bad} is {what}: {ways[bad].tolist()}", hint="directions may have any length from 1e-15 to 1e15")
+    return starts, ways
+
+
+def _points(values: npt.ArrayLike, what: str) -> npt.NDArray[np.float32]:
+    try:
+        exact = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ArrayShapeError(f"{what} must be numbers") from None
+    if exact.ndim == 1 and exact.shape == (3,):
+        exact = exact[None, :]
+    if exact.ndim != 2 or exact.shape[1] != 3:
+        raise ArrayShapeError(f"{what} must have the shape (N, 3), not {exact.shape}")
+    bad = np.flatnonzero(~np.all(np.abs(exact) < 1e30, axis=1))
+    if len(bad):
+        raise ArrayShapeError(f"{what} must be finite: number {bad[0]} is {exact[bad[0]].tolist()}")
+    return exact.astype(np.float32)
+
+
+def _ray_buffers(device: Device, starts: npt.NDArray[np.float32], ways: npt.NDArray[np.float32]) -> dict[str, Any]:
+    made: dict[str, Any] = {}
+    for name, data in (("o", starts), ("d", ways)):
+        for i, axis in enumerate("xyz"):
+            made[f"{name}{axis}"] = device.allocate(F32, len(data))
+            device.write(made[f"{name}{axis}"], np.ascontiguousarray(data[:, i]))
+    return made
+
+
+def _hits(device: Device, buffers: dict[str, Any], certified: bool) -> Hits:
+    read = {name: device.read(buffers[name]) for name in ("t", "nx", "ny", "nz", "status", "steps")}
+    status = read["status"].astype(np.uint8)
+    t = np.where(status == MISS, np.float32(np.nan), read["t"])
+    normal = np.stack([read["nx"], read["ny"], read["nz"]], axis=-1)
+    return Hits(t, status, normal, read["steps"].copy(), certified)
+

@@ -1,0 +1,95 @@
+"""How a frame's pixels lie in its buffers: tiles of 8x8 pixels, each four blocks of 4x4.
+
+A packet of 16 lanes is one block, which keeps neighbouring rays together; 64 lanes in a row are one tile, which shares
+its beam. Buffers keep that order through all passes, so that every load and store is contiguous; only what leaves the
+frame is put into rows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from zeroset.kernel import F32, KernelBuilder, Value
+
+TILE = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The tiling of one frame size."""
+
+    width: int
+    height: int
+
+    @property
+    def columns(self) -> int:
+        """Tiles across."""
+        return -(-self.width // TILE)
+
+    @property
+    def rows(self) -> int:
+        """Tiles down."""
+        return -(-self.height // TILE)
+
+    @property
+    def tiles(self) -> int:
+        """Tiles in all."""
+        return self.columns * self.rows
+
+    @property
+    def lanes(self) -> int:
+        """Pixels in all, those of the last row and column of tiles that stick out of the frame included."""
+        return self.tiles * TILE * TILE
+
+    def uniforms(self) -> dict[str, float]:
+        """What the kernels need to know: tiles across, and the map from pixels to frame coordinates."""
+        scale = 2.0 / max(self.width, self.height)
+        corner = {"u0": -0.5 * self.width * scale, "v0": 0.5 * self.height * scale}
+        return {"columns": self.columns, "width": self.width, "height": self.height, "pixel": scale} | corner
+
+    def unscramble(self, buffer: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+        """A buffer in rows: (height, width)."""
+        blocks = buffer.reshape(self.rows, self.columns, 2, 2, 4, 4).transpose(0, 2, 4, 1, 3, 5)
+        return np.ascontiguousarray(blocks.reshape(self.rows * TILE, self.columns * TILE)[: self.height, : self.width])
+
+
+def tile_of(lane: Value) -> Value:
+    """The tile that a lane's pixel is in."""
+    return lane >> 6
+
+
+def _tile_corner(builder: KernelBuilder, tile: Value) -> tuple[Value, Value]:
+    """Column and row of a tile, found without an integer division: exact below 2^23 tiles in all."""
+    columns = builder.uniform("columns", tile.type)
+    across = columns.convert(F32)
+    row = ((tile.convert(F32) + 0.5) / across).floor().convert(tile.type)
+    return tile - row * columns, row
+
+
+def frame_coordinates(builder: KernelBuilder, column: Value, row: Value) -> tuple[Value, Value]:
+    """u and v of a place given in pixels, v upwards."""
+    pixel = builder.uniform("pixel", F32)
+    return column.fma(pixel, builder.uniform("u0", F32)), (-row).fma(pixel, builder.uniform("v0", F32))
+
+
+def pixel_place(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:
+    """Column and row of a lane's pixel; those of the last tiles may lie outside the frame."""
+    tile_column, tile_row = _tile_corner(builder, tile_of(lane))
+    column = (tile_column << 3) + ((lane >> 4) & 1) * 4 + (lane & 3)
+    return column, (tile_row << 3) + ((lane >> 5) & 1) * 4 + ((lane >> 2) & 3)
+
+
+def pixel_coordinates(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:
+    """u and v of the middle of a lane's pixel."""
+    column, row = pixel_place(builder, lane)
+    return frame_coordinates(builder, column.convert(F32) + 0.5, row.convert(F32) + 0.5)
+
+
+def tile_coordinates(builder: KernelBuilder, tile: Value) -> tuple[Value, Value]:
+    """u and v of the middle of a tile."""
+    column, row = _tile_corner(builder, tile)
+    middle = 0.5 * TILE
+    return frame_coordinates(builder, (column << 3).convert(F32) + middle, (row << 3).convert(F32) + middle)

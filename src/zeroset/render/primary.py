@@ -1,0 +1,117 @@
+"""The kernels that find surfaces: beams over tiles, one ray a pixel, rays that a caller brings, and second looks.
+
+A second look is for rays that a certified method left unresolved in f32, mostly because rounding hid a sign: the same
+ray is searched again in f64, from where the first search had proven it clear. It goes to the few rays on the list
+alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from zeroset.arith import F32 as FORMAT
+from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load, store
+from zeroset.render.gbuffer import SECOND, ask_second_look, write
+from zeroset.render.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
+from zeroset.render.view import beam_rays, pixel_ray
+from zeroset.scene.clip import clip, outside
+from zeroset.solve.beam import trace_beam
+from zeroset.solve.field import Field, Lowered, Ray
+from zeroset.solve.method import Method
+from zeroset.solve.problem import UNRESOLVED, Problem
+from zeroset.solve.search import search
+from zeroset.solve.systems import automatic_system
+from zeroset.solve.walk import Striding
+
+EMPTY_TILE = 1e30
+"""Start of the rays of a tile that its beam has shown to be empty: beyond every bounds."""
+
+RayMaker = Callable[[KernelBuilder, Value], Ray]
+
+
+def camera_ray(builder: KernelBuilder, lane: Value) -> Ray:
+    """The ray of a lane's pixel."""
+    return pixel_ray(builder, *pixel_coordinates(builder, lane))
+
+
+def given_ray(builder: KernelBuilder, lane: Value) -> Ray:
+    """The ray that the caller gave at this place."""
+    origin, direction = (tuple(load(builder.buffer(f"{name}{axis}", F32), lane) for axis in "xyz") for name in "od")
+    return Ray(origin, direction)
+
+
+def _problem(builder: KernelBuilder, lowered: Lowered, kind: str, ray: Ray, near: Value, far: Value, step: Value | None) -> Problem:
+    """The search inside the bounds and between near and far; a step of an eighth of the stretch where none is given."""
+    t0, t1 = clip(builder, kind, ray.origin, ray.direction)
+    t0, t1 = t0.maximum(near), t1.minimum(far)
+    d = ray.direction
+    length = d[0].fma(d[0], d[1].fma(d[1], d[2] * d[2])).sqrt()
+    # A tolerance below t's own resolution would ask for steps that do not move.
+    resolution = abs(t0).maximum(abs(t1)) * 2.0**-20
+    tolerance = (builder.uniform("tolerance", F32) / length).maximum(resolution)
+    return Problem(lowered, ray, t0, t1, tolerance, (t1 - t0) * 0.125 if step is None else step)
+
+
+def _range(builder: KernelBuilder) -> tuple[Value, Value]:
+    return builder.uniform("near", F32), builder.uniform("far", F32)
+
+
+def trace_kernel(field: Field, method: Method, kind: str, make_ray: RayMaker, beams: bool, second: bool) -> Kernel:
+    """One search a ray; with ``beams`` it starts where its tile's beam ended, with ``second`` it may ask for another."""
+    with KernelBuilder("primary" if make_ray is camera_ray else "cast") as builder:
+        lane = builder.index() + builder.uniform("first", U32)
+        lowered = Lowered(field, builder, offset=method.offset != 0.0)
+        ray = make_ray(builder, lane)
+        near, far = _range(builder)
+        step = None
+        if beams:
+            tile = tile_of(lane)
+            near = load(builder.buffer("tile_start", F32), tile)
+            step = load(builder.buffer("tile_step", F32), tile)
+        answer = method.trace(_problem(builder, lowered, kind, ray, near, far, step))
+        write(builder, lowered, lane, ray, answer)
+        if second:
+            ask_second_look(builder, lane, answer)
+    return builder.kernel
+
+
+def second_kernel(field: Field, offset: bool, kind: str, make_ray: RayMaker) -> Kernel:
+    """The rays on the list again, in f64."""
+    with KernelBuilder("second") as builder:
+        place = builder.index()
+        lane, clear = (load(builder.buffer(name, type_), place) for name, type_ in SECOND.items())
+        lowered = Lowered(field, builder, F64, offset)
+        ray = make_ray(builder, lane)
+        near, far = _range(builder)
+        rough = _problem(builder, lowered, kind, ray, near, far, None)
+        exact = Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))
+        # A little earlier than where the first look got stuck, to learn the sign that f has there.
+        earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
+        start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
+        problem = Problem(lowered, exact, start, end, tolerance, tolerance * 4.0)
+        answer = search(problem, automatic_system(field, problem.fmt), Striding())
+        # Still unresolved: what the first look wrote stands.
+        if_(answer.status.ne(UNRESOLVED), lambda: write(builder, lowered, lane, exact, answer))
+    return builder.kernel
+
+
+def beam_kernel(field: Field, offset: bool, kind: str) -> Kernel:
+    """One beam a tile."""
+    with KernelBuilder("beams") as builder:
+        lane = builder.index()
+        lowered = Lowered(field, builder, offset=offset)
+        system = automatic_system(field, FORMAT, symbols=3)
+        u, v = tile_coordinates(builder, lane)
+        # Half a tile, and a pixel's rounding more.
+        half = builder.uniform("pixel", F32) * (0.5 * TILE + 0.01)
+        origin, direction = beam_rays(builder, system, system.symbol(0, u, half), system.symbol(1, v, half))
+
+        def beyond(point: Sequence[Any]) -> Value:
+            return outside(builder, kind, system, point)
+
+        near, far = _range(builder)
+        beam = trace_beam(lowered, system, origin, direction, near, far, builder.uniform("finest", F32), beyond)
+        store(builder.buffer("tile_start", F32, writable=True), lane, beam.empty.select(EMPTY_TILE, beam.start))
+        store(builder.buffer("tile_step", F32, writable=True), lane, beam.step)
+    return builder.kernel

@@ -1,0 +1,119 @@
+"""``render``: a surface becomes a picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from zeroset.errors import ZerosetError
+from zeroset.render.frame import Progress, frame_for
+from zeroset.render.image import Image
+from zeroset.render.layout import TILE, Layout
+from zeroset.render.shading import shading_uniforms
+from zeroset.render.values import parameter_uniforms
+from zeroset.render.view import camera_uniforms
+from zeroset.runtime import Device, get_device
+from zeroset.scene.bounds import Bounds
+from zeroset.scene.camera import Camera, Rays, parse_camera
+from zeroset.scene.clip import bounds_uniforms
+from zeroset.scene.light import Color, Light, Material
+from zeroset.scene.scene import Scene, as_scene
+from zeroset.scene.surface import Surface
+from zeroset.solve import Method, resolve_method
+
+LARGEST = 16384
+"""Pixels along a side."""
+
+
+def default_tolerance(bounds: Bounds) -> float:
+    """World length to which a root is found: 2^-14 of the bounds' extent, a small part of a pixel."""
+    return bounds.extent * 2.0**-14
+
+
+def render(
+    surface: Surface | Scene | str,
+    size: tuple[int, int] | int = (1024, 1024),
+    camera: Camera | None = None,
+    method: str | Method = "auto",
+    device: str | Device = "auto",
+    tolerance: float | None = None,
+    material: Material | None = None,
+    lights: Sequence[Light] | None = None,
+    background: Color | None = None,
+    progress: Progress | None = None,
+) -> Image:
+    """Draw a surface.
+
+    Args:
+        surface: a Surface, a Scene, or a formula as text.
+        size: width and height in pixels; one number for a square.
+        camera: None takes the scene's or the surface's own, or one that fits the bounds.
+        method: ``"auto"`` or another name of ``zs.methods``, or an instance with options.
+        device: ``"auto"``, ``"cpu"``, ``"interp"``, or a Device.
+        tolerance: world length to which roots are found; None takes 2^-14 of the bounds' extent.
+        material: colours and reflectance.
+        lights: where the light comes from; None takes two headlights.
+        background: linear RGB.
+        progress: called now and then with the share that is done, from 0 to 1.
+
+    Returns:
+        The picture, with depth, normals, status and steps as ``image.aov(name)``.
+
+    Raises:
+        ZerosetError: and its kinds, for what cannot be drawn; the message says what and how to mend it.
+
+    Example:
+        >>> import zeroset as zs
+        >>> image = zs.render("x^2 + y^2 + z^2 = 1", size=64)
+        >>> image.size, image.hits > 500
+        ((64, 64), True)
+    """
+    scene = as_scene(surface)
+    shown = scene.surface
+    layout = _layout(size)
+    chosen = resolve_method(method)
+    chosen.check(shown.field)
+    target = get_device(device)
+    view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
+    lit = tuple(scene.lights if lights is None else lights)
+    frame = frame_for(shown, chosen, len(lit), layout, target)
+    rays = view.rays(layout.width, layout.height)
+    uniforms = frame_uniforms(shown, chosen, rays, layout, _tolerance(tolerance, shown.fitted))
+    uniforms |= shading_uniforms(material or scene.material, lit, background or scene.background, rays)
+    with frame.lock:
+        picture, outputs = frame.draw(shown, uniforms, progress)
+    return Image(picture, outputs, chosen.certified)
+
+
+def _layout(size: tuple[int, int] | int) -> Layout:
+    try:
+        width, height = (size, size) if isinstance(size, (int, np.integer)) else (int(v) for v in size)
+    except (TypeError, ValueError):
+        raise ZerosetError(f"the size must be width and height in pixels, not {size!r}") from None
+    if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
+        raise ZerosetError(f"the size must be from 1 to {LARGEST} pixels a side, not {width}x{height}")
+    return Layout(int(width), int(height))
+
+
+def _tolerance(value: float | None, bounds: Bounds) -> float:
+    if value is None:
+        return default_tolerance(bounds)
+    if not (math.isfinite(value) and value > 0):
+        raise ZerosetError(f"the tolerance must be positive and finite, not {value!r}")
+    return float(value)
+
+
+def frame_uniforms(surface: Surface, method: Method, rays: Rays, layout: Layout, tolerance: float) -> dict[str, float]:
+    """Everything that the beams and the primary rays need to know."""
+    bounds = surface.fitted
+    depth = float(np.dot(np.subtract(bounds.center, rays.eye), rays.forward))
+    slack = 1e-6 * (abs(depth) + bounds.reach)
+    near, far = max(0.0, depth - bounds.reach - slack), max(0.0, depth + bounds.reach + slack)
+    # Length of one pixel step, at the bounds' centre, in world units: a beam is about a tile of them wide.
+    spread = np.linalg.norm(rays.right) * max(depth, near) + np.linalg.norm(rays.right_origin)
+    finest = max(float(spread) * 2.0 / max(layout.width, layout.height) * TILE, tolerance, 1e-6 * far)
+    uniforms = camera_uniforms(rays) | bounds_uniforms(bounds) | layout.uniforms()
+    uniforms |= {"near": near, "far": far, "finest": finest, "tolerance": tolerance}
+    return uniforms | parameter_uniforms(surface, method)

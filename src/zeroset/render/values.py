@@ -1,0 +1,51 @@
+"""Parameters as kernels read them: a value in the kernel's scalar type and, beside it, what storing it left out.
+
+So a kernel in f32 treats the parameter 0.1 as the interval around its nearest f32 that holds 0.1, and what it proves
+is about the number that the user gave.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from zeroset.kernel.types import F32, Type
+from zeroset.runtime import Device
+from zeroset.scene.surface import Surface
+from zeroset.solve.field import OFFSET, array_names, length_name, parameter_names
+from zeroset.solve.method import Method
+
+Floats = npt.NDArray[Any]
+
+
+def stored(exact: npt.NDArray[np.float64], type_: Type) -> tuple[Floats, Floats]:
+    """Numbers in a scalar type, and bounds of what that leaves out, rounded up; exactly stored ones have 0."""
+    near = exact.astype(type_.dtype)
+    error = np.abs(exact - near.astype(np.float64)).astype(type_.dtype)
+    return near, np.where(error > 0, np.nextafter(error, type_.dtype.type(np.inf)), type_.dtype.type(0))
+
+
+def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32) -> dict[str, float]:
+    """The parameters' values, the arrays' lengths and the method's options by uniform name."""
+    values = {name: surface.params[name] for name in surface.field.parameters} | {OFFSET: method.offset}
+    near, error = stored(np.array(list(values.values()), np.float64), type_)
+    named = method.uniforms()
+    for i, name in enumerate(values):
+        value_name, error_name = parameter_names(name, type_)
+        named[value_name], named[error_name] = float(near[i]), float(error[i])
+    return named | {length_name(name): len(surface.arrays[name]) for name in surface.field.arrays}
+
+
+def array_buffers(surface: Surface, device: Device, type_: Type = F32) -> dict[str, Any]:
+    """Two buffers for each array parameter."""
+    made: dict[str, Any] = {}
+    for name in surface.field.arrays:
+        for key, values in zip(array_names(name, type_), stored(surface.arrays[name], type_), strict=True):
+            made[key] = device.allocate(type_, len(values))
+            device.write(made[key], values)
+    return made
+
+
+__all__ = ["array_buffers", "parameter_uniforms", "stored"]

@@ -1,0 +1,43 @@
+"""The camera inside kernels: its six vectors as uniforms, rays of pixels and of whole tiles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from zeroset.kernel import F32, KernelBuilder, Value
+from zeroset.scene.camera import Rays
+from zeroset.solve.field import Ray
+
+VECTORS = ("eye", "right_origin", "up_origin", "forward", "right", "up")
+
+
+def camera_uniforms(rays: Rays) -> dict[str, float]:
+    """The camera's numbers by uniform name."""
+    return {f"{name}_{axis}": vector[i] for name, vector in zip(VECTORS, rays, strict=True) for i, axis in enumerate("xyz")}
+
+
+def _vector(builder: KernelBuilder, name: str) -> list[Value]:
+    return [builder.uniform(f"{name}_{axis}", F32) for axis in "xyz"]
+
+
+def pixel_ray(builder: KernelBuilder, u: Value, v: Value) -> Ray:
+    """The ray through one point of the frame."""
+    eye, across, upwards, forward, right, up = (_vector(builder, name) for name in VECTORS)
+    origin = tuple(u.fma(a, v.fma(b, e)) for e, a, b in zip(eye, across, upwards, strict=True))
+    direction = tuple(u.fma(a, v.fma(b, f)) for f, a, b in zip(forward, right, up, strict=True))
+    return Ray(origin, direction)
+
+
+def beam_rays(builder: KernelBuilder, system: Any, u: Any, v: Any) -> tuple[list[Any], list[Any]]:
+    """Origins and directions of a tile's rays as numbers in u and v, covering how ``pixel_ray`` rounds."""
+    eye, across, upwards, forward, right, up = (_vector(builder, name) for name in VECTORS)
+
+    def affine(base: list[Value], a: list[Value], b: list[Value]) -> list[Any]:
+        # Two fused steps on numbers no larger than |base| + |a| + |b| (u and v are at most 1): four roundings cover it.
+        slack = [(abs(p) + abs(q) + abs(r)) * (4 * 2.0**-24) for p, q, r in zip(base, a, b, strict=True)]
+        return [
+            system.enclose(p, s) + system.exact(q) * u + system.exact(r) * v
+            for p, q, r, s in zip(base, a, b, slack, strict=True)
+        ]
+
+    return affine(eye, across, upwards), affine(forward, right, up)

@@ -1,0 +1,172 @@
+"""The CPU: kernels as SIMD machine code on all cores.
+
+Code comes from memory, from the disk, or from LLVM, in this order; LLVM is imported only in the last case (and where
+the system cannot run images, see ``image``). After zeroset's own passes none of LLVM's are run: on ray kernels of 400
+to 600 instructions they gained no speed and doubled the time to compile.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from functools import lru_cache
+from importlib.util import find_spec
+from typing import Any
+
+from zeroset.codegen.target import Target
+from zeroset.errors import DeviceError
+from zeroset.kernel.build import Kernel
+from zeroset.runtime import image
+from zeroset.runtime.cache import Cache, Compiled, default_cache, source_stamp
+from zeroset.runtime.device import HostMemory, Signature
+from zeroset.runtime.pool import Pool, thread_count
+from zeroset.runtime.program import CpuProgram
+
+_ENTRY = "drain"
+_IN_MEMORY = 256
+"""Programs that a device remembers; older ones live as long as somebody holds them."""
+
+
+class CpuDevice(HostMemory):
+    """This machine's CPU.
+
+    Args:
+        target: the instruction set to compile for; the best that this CPU has by default.
+        threads: how many threads run a dispatch; ``ZEROSET_THREADS`` or all cores by default.
+        cache: where compiled code is kept; the user's cache folder by default.
+
+    Example:
+        >>> import numpy as np
+        >>> from zeroset.kernel import F32, KernelBuilder, load, store
+        >>> with KernelBuilder("double") as k:
+        ...     x, i = k.buffer("x", F32, writable=True), k.index()
+        ...     store(x, i, load(x, i) * 2.0)
+        >>> data = np.arange(4, dtype=np.float32)
+        >>> CpuDevice(cache=Cache(None)).compile(k.kernel).run(4, {}, {"x": data})
+        >>> data.tolist()
+        [0.0, 2.0, 4.0, 6.0]
+    """
+
+    name = "cpu"
+
+    def __init__(self, target: Target | None = None, threads: int | None = None, cache: Cache | None = None) -> None:
+        self._target = target
+        self._pool = Pool(threads or thread_count())
+        self.cache = default_cache() if cache is None else cache
+        self._programs: dict[str, CpuProgram] = {}
+        self._busy = threading.RLock()
+        self._stamp = f"{target.identity if target else _host_stamp()}|{source_stamp()}|{_llvm_stamp()}"
+
+    @property
+    def target(self) -> Target:
+        """The instruction set that kernels are compiled for; asking for it loads LLVM."""
+        if self._target is None:
+            self._target = host()[0]
+        return self._target
+
+    @property
+    def threads(self) -> int:
+        """How many threads run a dispatch."""
+        return self._pool.threads
+
+    def compile(self, kernel: Kernel) -> CpuProgram:
+        """The program of a kernel; see ``Device.compile``."""
+        with self._busy:
+            return self._programs.get(kernel.digest) or self._remember(kernel.digest, self._obtain(kernel))
+
+    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> CpuProgram:
+        """The program under a key; see ``Device.compile_cached``."""
+        name = f"key {key}"
+        with self._busy:
+            known = self._programs.get(name)
+            if known is None:
+                digest = self.cache.follow(f"{name}|{self._stamp}")
+                known = None if digest is None else self._programs.get(digest) or self._recall(digest)
+            if known is None:
+                kernel = build()
+                known = self.compile(kernel)
+                self.cache.link(f"{name}|{self._stamp}", kernel.digest)
+            return self._remember(name, known)
+
+    def _remember(self, name: str, program: CpuProgram) -> CpuProgram:
+        self._programs.pop(name, None)
+        self._programs[name] = program
+        while len(self._programs) > _IN_MEMORY:
+            del self._programs[next(iter(self._programs))]
+        return program
+
+    def _recall(self, digest: str) -> CpuProgram | None:
+        """A program from the disk."""
+        compiled = self.cache.get(f"{digest}|{self._stamp}")
+        return None if compiled is None else self._place(compiled)
+
+    def _obtain(self, kernel: Kernel) -> CpuProgram:
+        known = self._recall(kernel.digest)
+        if known is not None:
+            return known
+        from zeroset.codegen import llvm
+        from zeroset.kernel.passes import optimise
+
+        code = llvm.to_object(llvm.to_llvm(optimise(kernel), self.target), self.target)
+        flat = image.link(code, _ENTRY) if image.can_place() else None
+        kind, data = ("object", code) if flat is None else ("image", flat)
+        compiled = Compiled(Signature.of(kernel), self.target.width, kind, data)
+        self.cache.put(f"{kernel.digest}|{self._stamp}", compiled)
+        return self._place(compiled)
+
+    def _place(self, compiled: Compiled) -> CpuProgram:
+        try:
+            address, keep = image.place(compiled.code) if compiled.kind == "image" else self._link(compiled.code)
+        except (OSError, RuntimeError) as error:
+            raise DeviceError(
+                f"this system does not run compiled code: {error}", hint='use device="interp", which needs none'
+            ) from error
+        return CpuProgram(compiled.signature, compiled.width, address, keep, self._pool)
+
+    def _link(self, code: bytes) -> tuple[int, object]:
+        """Object code in memory, by LLVM's linker."""
+        import llvmlite.binding as binding
+
+        from zeroset.codegen import llvm
+
+        engine = binding.create_lljit_compiler(llvm.machine(self.target))
+        builder = binding.JITLibraryBuilder().add_object_img(code).export_symbol(_ENTRY)
+        library: Any = builder.link(engine, f"zeroset{id(engine)}")
+        return library[_ENTRY], (engine, library)
+
+
+def host() -> tuple[Target, ...]:
+    """The targets that this machine runs, the best first.
+
+    Raises:
+        DeviceError: LLVM cannot be loaded.
+    """
+    try:
+        from zeroset.codegen import llvm
+
+        return llvm.host()
+    except (ImportError, OSError) as error:
+        hint = 'reinstall llvmlite (pip install --force-reinstall "llvmlite>=0.50,<0.51"), or use device="interp"'
+        raise DeviceError(f"LLVM, which compiles for the CPU, cannot be loaded: {error}", hint=hint) from error
+
+
+def _host_stamp() -> str:
+    """What tells this CPU from others, without LLVM where the system says it."""
+    wanted = ("vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU ")
+    try:
+        with open("/proc/cpuinfo") as file:
+            lines = file.read(1 << 14).split("\n\n")[0].splitlines()
+    except OSError:
+        return host()[0].identity
+    return os.uname().machine + "\n".join(line for line in lines if line.startswith(wanted))
+
+
+@lru_cache(maxsize=1)
+def _llvm_stamp() -> str:
+    """What tells this LLVM from others, without loading it; empty where there is none."""
+    found = find_spec("llvmlite")
+    if found is None or found.origin is None:
+        return ""
+    stat = os.stat(found.origin)
+    return f"{found.origin} {stat.st_size} {stat.st_mtime_ns}"

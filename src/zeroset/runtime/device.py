@@ -1,0 +1,154 @@
+"""The contract between a frame and whatever runs its kernels.
+
+A device compiles kernels to programs and holds buffers; a program runs on buffers and uniforms. The contract is made
+so that a frame allocates and compiles nothing: buffers live as long as their owner keeps them, uniforms are numbers
+packed anew for each run, and a program is asked for once. On the CPU a buffer is a NumPy array that the caller may
+read at any time; on other devices it is a handle, and ``read`` and ``write`` move the data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+import numpy.typing as npt
+
+from zeroset.errors import DeviceError
+from zeroset.kernel.build import Kernel
+from zeroset.kernel.types import TYPES, Buffer, Type, Uniform
+
+Array = npt.NDArray[Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """What a caller binds to run a program: all of a kernel that outlives its compilation.
+
+    Attributes:
+        name: the kernel's name, for errors.
+        uniforms: the scalars it reads.
+        buffers: the arrays it reads or writes.
+    """
+
+    name: str
+    uniforms: tuple[Uniform, ...]
+    buffers: tuple[Buffer, ...]
+
+    @classmethod
+    def of(cls, kernel: Kernel) -> Signature:
+        """A kernel's signature."""
+        return cls(kernel.name, kernel.uniforms, kernel.buffers)
+
+    def to_json(self) -> dict[str, Any]:
+        """The signature as plain data."""
+        return {
+            "name": self.name,
+            "uniforms": [[u.name, u.type.name] for u in self.uniforms],
+            "buffers": [[b.name, b.type.name, b.writable] for b in self.buffers],
+        }
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any]) -> Signature:
+        """The signature that ``to_json`` wrote; ``KeyError``, ``TypeError`` or ``ValueError`` on anything else."""
+        return cls(
+            str(data["name"]),
+            tuple(Uniform(name, TYPES[type_]) for name, type_ in data["uniforms"]),
+            tuple(Buffer(name, TYPES[type_], bool(writable)) for name, type_, writable in data["buffers"]),
+        )
+
+
+class Program(Protocol):
+    """A kernel made ready for one device."""
+
+    @property
+    def signature(self) -> Signature:
+        """What ``run`` must be given."""
+        ...
+
+    def run(self, count: int, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
+        """Run ``count`` lanes and return when all have finished.
+
+        Args:
+            count: lanes, 0 to 2^31 - 1.
+            uniforms: a number for each of the signature's uniforms; more are ignored.
+            buffers: a buffer of this device for each of the signature's; more are ignored. A buffer that the kernel
+                writes must not overlap another that it uses.
+
+        Raises:
+            DeviceError: something is missing or has the wrong type, or the device failed.
+        """
+        ...
+
+
+@runtime_checkable
+class Device(Protocol):
+    """Something that runs kernels."""
+
+    @property
+    def name(self) -> str:
+        """Its name as users write it: ``cpu``, ``gpu`` or ``interp``."""
+        ...
+
+    def compile(self, kernel: Kernel) -> Program:
+        """The program of a kernel; the same kernel again costs nothing."""
+        ...
+
+    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> Program:
+        """The program that an earlier call, perhaps of an earlier process, made under this key.
+
+        Args:
+            key: names everything that ``build`` depends on, versions of zeroset excepted.
+            build: traces the kernel; called only where no program is known under the key.
+        """
+        ...
+
+    def allocate(self, type_: Type, count: int) -> Any:
+        """A buffer of zeros."""
+        ...
+
+    def write(self, buffer: Any, values: Array) -> None:
+        """Set the first elements of a buffer."""
+        ...
+
+    def read(self, buffer: Any) -> Array:
+        """The elements of a buffer."""
+        ...
+
+
+class HostMemory:
+    """Buffers of devices that share the host's memory: NumPy arrays."""
+
+    def allocate(self, type_: Type, count: int) -> Array:
+        """An array of zeros, aligned to cache lines."""
+        size = type_.size
+        raw = np.zeros(count * size + 64, np.uint8)
+        start = -raw.ctypes.data % 64
+        return raw[start : start + count * size].view(type_.dtype)
+
+    def write(self, buffer: Array, values: Array) -> None:
+        """Set the first elements of an array."""
+        buffer[: len(values)] = values
+
+    def read(self, buffer: Array) -> Array:
+        """The array itself."""
+        return buffer
+
+
+def check_count(signature: Signature, count: int) -> None:
+    """Raise ``DeviceError`` unless the count is one that every device can run."""
+    if not 0 <= count < 2**31:
+        raise DeviceError(f"kernel {signature.name} cannot run {count} lanes", hint="0 to 2^31 - 1 can be run at once")
+
+
+def check_array(signature: Signature, buffer: Buffer, array: object) -> Array:
+    """The array bound to a buffer, if it can be; raises ``DeviceError``."""
+    wanted = f"kernel {signature.name} needs the buffer {buffer.name} as a contiguous 1-D array of {buffer.type.dtype}"
+    if not isinstance(array, np.ndarray):
+        raise DeviceError(f"{wanted}, not {'nothing' if array is None else type(array).__name__}")
+    if array.dtype != buffer.type.dtype or array.ndim != 1 or not array.flags.c_contiguous:
+        raise DeviceError(f"{wanted}, not {array.dtype} of shape {array.shape}")
+    if buffer.writable and not array.flags.writeable:
+        raise DeviceError(f"{wanted} that may be written")
+    return array

@@ -1,0 +1,1 @@
+"""What is drawn and how it is seen: surfaces, bounds, cameras, lights, materials, scenes and their files."""

@@ -1,0 +1,115 @@
+"""Where a surface is drawn: a ball or a box. Hits lie inside the bounds only.
+
+Bounds do two things inside kernels: clip a ray to the stretch of t inside them, and say where a whole region (a box of
+any number system) lies outside them, which is how beams skip the corners of a frame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Union
+
+from zeroset.errors import BoundsError
+
+Vector = tuple[float, float, float]
+
+
+def vector(value: Iterable[float], what: str) -> Vector:
+    """Three finite floats, or a ``BoundsError`` naming ``what``."""
+    try:
+        x, y, z = (float(v) for v in value)
+    except (TypeError, ValueError):
+        raise BoundsError(f"{what} must be three numbers, not {value!r}") from None
+    if not all(math.isfinite(v) for v in (x, y, z)):
+        raise BoundsError(f"{what} must be finite, not {value!r}")
+    return x, y, z
+
+
+@dataclass(frozen=True, slots=True)
+class Ball:
+    """The ball |p - center| <= radius.
+
+    Example:
+        >>> Ball(2.0).radius
+        2.0
+    """
+
+    radius: float
+    center: Vector = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "center", vector(self.center, "the centre of the bounds"))
+        if not (math.isfinite(self.radius) and 0 < self.radius < 1e15):
+            raise BoundsError(f"the radius of the bounds must be positive and finite, not {self.radius!r}", hint="try bounds=3.0")
+
+    @property
+    def extent(self) -> float:
+        """The diameter."""
+        return 2.0 * self.radius
+
+    @property
+    def reach(self) -> float:
+        """Radius of the smallest ball around ``center`` that holds the bounds."""
+        return self.radius
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """The axis-parallel box between two corners.
+
+    Example:
+        >>> Box((-1, -1, -1), (1, 1, 2)).center
+        (0.0, 0.0, 0.5)
+    """
+
+    min: Vector
+    max: Vector
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "min", vector(self.min, "the lower corner of the bounds"))
+        object.__setattr__(self, "max", vector(self.max, "the upper corner of the bounds"))
+        if not all(a < b for a, b in zip(self.min, self.max, strict=True)):
+            raise BoundsError(f"the bounds are empty: {self.min} is not below {self.max} in every coordinate")
+        if max(map(abs, (*self.min, *self.max))) >= 1e15:
+            raise BoundsError("the bounds are too large: coordinates must stay below 1e15")
+
+    @property
+    def center(self) -> Vector:
+        """The middle of the box."""
+        x, y, z = (0.5 * (a + b) for a, b in zip(self.min, self.max, strict=True))
+        return x, y, z
+
+    @property
+    def extent(self) -> float:
+        """The diagonal."""
+        return math.dist(self.min, self.max)
+
+    @property
+    def reach(self) -> float:
+        """Radius of the smallest ball around ``center`` that holds the bounds."""
+        return 0.5 * self.extent
+
+
+Bounds = Union[Ball, Box]
+
+
+def parse_bounds(value: Any) -> Bounds | None:
+    """Bounds from what users write: a number, a Ball or Box, a mapping with their fields, two corners, or None."""
+    if value is None or isinstance(value, (Ball, Box)):
+        return value
+    if isinstance(value, Mapping):
+        keys = set(value)
+        if keys == {"min", "max"}:
+            return Box(value["min"], value["max"])
+        if keys <= {"center", "radius"} and "radius" in keys:
+            return Ball(float(value["radius"]), value.get("center", (0.0, 0.0, 0.0)))
+        raise BoundsError(f"bounds have either min and max, or center and radius, not {', '.join(sorted(map(str, keys)))}")
+    if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2:
+        return Box(value[0], value[1])
+    try:
+        radius = float(value)
+    except (TypeError, ValueError):
+        raise BoundsError(f"bounds must be a number, a Ball or a Box, not {value!r}", hint="try bounds=3.0") from None
+    return Ball(radius)

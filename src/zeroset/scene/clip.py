@@ -1,0 +1,87 @@
+"""Bounds inside kernels: the stretch of a ray inside them, and whether a region lies outside them.
+
+The bounds' numbers are uniforms, so moving or resizing them never recompiles; only ball or box shapes the kernel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from zeroset.kernel import F32, KernelBuilder, Value
+from zeroset.scene.bounds import Ball, Bounds
+
+NAMES = ("bx0", "by0", "bz0", "bx1", "by1", "bz1")
+
+
+def bounds_kind(bounds: Bounds) -> str:
+    """What of the bounds shapes the kernel."""
+    return "ball" if isinstance(bounds, Ball) else "box"
+
+
+def bounds_uniforms(bounds: Bounds) -> dict[str, float]:
+    """The bounds' numbers by uniform name: centre and radius of a ball, the corners of a box."""
+    values = (*bounds.center, bounds.radius, 0.0, 0.0) if isinstance(bounds, Ball) else (*bounds.min, *bounds.max)
+    return dict(zip(NAMES, values, strict=True))
+
+
+def _uniforms(builder: KernelBuilder) -> list[Value]:
+    return [builder.uniform(name, F32) for name in NAMES]
+
+
+def clip(builder: KernelBuilder, kind: str, origin: Sequence[Value], direction: Sequence[Value]) -> tuple[Value, Value]:
+    """The stretch [t0, t1] of the whole line inside the bounds; t1 <= t0 where it misses them."""
+    if kind == "ball":
+        return _clip_ball(_uniforms(builder), origin, direction)
+    return _clip_box(_uniforms(builder), origin, direction)
+
+
+def _dot(a: Sequence[Value], b: Sequence[Value]) -> Value:
+    return a[0].fma(b[0], a[1].fma(b[1], a[2] * b[2]))
+
+
+def _clip_ball(bounds: list[Value], origin: Sequence[Value], direction: Sequence[Value]) -> tuple[Value, Value]:
+    # By the point of closest approach, whose distance does not cancel when the eye is far away.
+    to_center = [c - o for c, o in zip(bounds[:3], origin, strict=True)]
+    length = _dot(direction, direction)
+    middle = _dot(to_center, direction) / length
+    nearest = [c - middle * d for c, d in zip(to_center, direction, strict=True)]
+    inside = bounds[3] * bounds[3] - _dot(nearest, nearest)
+    half = (inside.maximum(0.0) / length).sqrt()
+    return middle - half, (inside > 0.0).select(middle + half, middle - half)
+
+
+def _clip_box(bounds: list[Value], origin: Sequence[Value], direction: Sequence[Value]) -> tuple[Value, Value]:
+    low: Value | None = None
+    high: Value | None = None
+    for o, d, lo, hi in zip(origin, direction, bounds[:3], bounds[3:], strict=True):
+        # A direction along the face: a slope of 1e-20 puts the faces at the far ends, on the right sides.
+        inverse = 1.0 / (abs(d) < 1e-20).select(1e-20, d)
+        a, b = (lo - o) * inverse, (hi - o) * inverse
+        low = a.minimum(b) if low is None else low.maximum(a.minimum(b))
+        high = a.maximum(b) if high is None else high.minimum(a.maximum(b))
+    assert low is not None
+    assert high is not None
+    return low, high
+
+
+def outside(builder: KernelBuilder, kind: str, system: Any, point: Sequence[Any]) -> Value:
+    """Whether a region, given as numbers of an enclosing system, certainly lies outside the bounds."""
+    bounds = [system.exact(v) for v in _uniforms(builder)]
+    if kind == "ball":
+        squares = [(p - c).sqr() for p, c in zip(point, bounds[:3], strict=True)]
+        distance = squares[0] + squares[1] + squares[2] - bounds[3].sqr()
+        return positive(distance)
+    result: Value | None = None
+    for p, lo, hi in zip(point, bounds[:3], bounds[3:], strict=True):
+        here = positive(lo - p) | positive(p - hi)
+        result = here if result is None else result | here
+    assert result is not None
+    return result
+
+
+def positive(number: Any) -> Value:
+    """Whether every real of an enclosure is above 0."""
+    low = number.interval().lo
+    assert isinstance(low, Value)
+    return low > 0.0

@@ -1,0 +1,194 @@
+"""Scene files: a whole picture as TOML, read with errors that name the line, and written back the same.
+
+Every key is optional but ``formula``:
+
+    formula = "x^4 - a*x^2 + y^4 - 5y^2 + z^4 - 5z^2 + 11.8"
+    name = "tangle"
+    bounds = 3.0                                    # or {center, radius}, or {min, max}
+    background = [1.0, 1.0, 1.0]
+    params = {a = 5.0}
+    camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
+    material = {front = [0.9, 0.5, 0.1], shininess = 40}
+    [[lights]]
+    direction = [-0.4, 0.7, 0.7]
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import re
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
+from zeroset.scene.bounds import Ball, Bounds, parse_bounds
+from zeroset.scene.camera import Camera
+from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
+from zeroset.scene.scene import Scene
+from zeroset.scene.surface import surface
+
+KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights")
+LARGEST = 4_000_000
+"""Bytes of a scene file."""
+
+
+def load(path: str | os.PathLike[str]) -> Scene:
+    """Read a scene file.
+
+    Args:
+        path: a ``.toml`` file.
+
+    Returns:
+        The scene; ``scene.surface`` is its surface.
+
+    Raises:
+        SceneFileError: the file is missing, is no scene, or has a wrong entry; the message names file and line.
+    """
+    source = Path(path)
+    if source.suffix.lower() != ".toml":
+        raise SceneFileError(f"cannot tell the format of {source.name!r}", path=path, hint="scene files end in .toml")
+    try:
+        if source.stat().st_size > LARGEST:
+            raise SceneFileError(f"the scene file is larger than {LARGEST} bytes", path=path)
+        text = source.read_text(encoding="utf-8")
+    except OSError as error:
+        raise SceneFileError(f"cannot read the scene file: {error.strerror or error}", path=path) from None
+    except UnicodeDecodeError:
+        raise SceneFileError("the scene file is not text in UTF-8", path=path) from None
+    return loads(text, path)
+
+
+def loads(text: str, path: str | os.PathLike[str] = "scene.toml") -> Scene:
+    """A scene from the text of a scene file; ``path`` is what errors call it."""
+    try:
+        data = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        found = re.search(r"line (\d+)", str(error))
+        raise SceneFileError(f"this is no TOML: {error}", path=path, line=int(found[1]) if found else None) from None
+    return _Reader(text, path).scene(data)
+
+
+class _Reader:
+    def __init__(self, text: str, path: str | os.PathLike[str]) -> None:
+        self._text = text
+        self._path = path
+
+    def _line(self, key: str) -> int | None:
+        """The first line that mentions a key; TOML's reader does not tell where values stood."""
+        pattern = re.compile(rf"(^|[\s{{,\[.]){re.escape(key)}\s*[=\]]")
+        return next((i for i, line in enumerate(self._text.splitlines(), 1) if pattern.search(line)), None)
+
+    def fail(self, message: str, key: str, hints: tuple[str, ...] = ()) -> SceneFileError:
+        return SceneFileError(message, path=self._path, line=self._line(key), hints=hints)
+
+    def known(self, data: Any, keys: tuple[str, ...], where: str) -> Mapping[str, Any]:
+        if not isinstance(data, Mapping):
+            raise self.fail(f"{where} must be a table, not {data!r}", where)
+        for key in data:
+            if key not in keys:
+                raise self.fail(f"{where} has no {key!r}", key, (*did_you_mean(key, keys), f"it has {', '.join(keys)}"))
+        return data
+
+    def scene(self, data: dict[str, Any]) -> Scene:
+        self.known(data, KEYS, "a scene")
+        if not isinstance(data.get("formula"), str):
+            raise self.fail("a scene needs a formula as text", "formula", ('formula = "x^2 + y^2 + z^2 = 1"',))
+        lights = data.get("lights")
+        if lights is not None and not isinstance(lights, list):
+            raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
+        with _placing(self, "formula"):
+            shape = surface(data["formula"], self._table(data, "params"), name=str(data.get("name", "")))
+        with _placing(self, "bounds"):
+            shape = dataclasses.replace(shape, bounds=parse_bounds(data.get("bounds")))
+        return Scene(
+            shape,
+            None if "camera" not in data else self.build(Camera, data["camera"], "camera"),
+            self.build(Material, data.get("material", {}), "material"),
+            DEFAULT_LIGHTS if lights is None else tuple(self.build(Light, light, "lights") for light in lights),
+            self._color(data.get("background", DEFAULT_BACKGROUND)),
+        )
+
+    def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+        value = data.get(key, {})
+        if not isinstance(value, Mapping):
+            raise self.fail(f"{key} must be a table of names and values", key)
+        return value
+
+    def build(self, cls: type[Any], data: Any, where: str) -> Any:
+        fields = tuple(f.name for f in dataclasses.fields(cls))
+        values = {k: tuple(v) if isinstance(v, list) else v for k, v in self.known(data, fields, where).items()}
+        with _placing(self, next(iter(values), where)):
+            try:
+                return cls(**values)
+            except TypeError as error:
+                raise self.fail(f"{where} has a value of the wrong kind: {error}", where) from None
+
+    def _color(self, value: Any) -> tuple[float, float, float]:
+        try:
+            r, g, b = (float(v) for v in value)
+        except (TypeError, ValueError):
+            raise self.fail(f"background must be three numbers, not {value!r}", "background") from None
+        return r, g, b
+
+
+class _placing:  # noqa: N801 - reads as a statement
+    """Errors of what a file says get the file and the line."""
+
+    def __init__(self, reader: _Reader, key: str) -> None:
+        self._reader = reader
+        self._key = key
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: Any) -> None:
+        if isinstance(error, ZerosetError) and not (isinstance(error, SceneFileError) and error.path is not None):
+            raise self._reader.fail(str(error), self._key) from None
+
+
+def dumps(scene: Scene) -> str:
+    """The text of a scene file; ``loads`` gives the same scene back."""
+    import tomli_w
+
+    shape = scene.surface
+    data: dict[str, Any] = {"formula": shape.formula}
+    if shape.name:
+        data["name"] = shape.name
+    if shape.bounds is not None:
+        data["bounds"] = _bounds_data(shape.bounds)
+    data["background"] = [float(v) for v in scene.background]
+    params: dict[str, Any] = dict(shape.params) | {k: [float(v) for v in a] for k, a in shape.arrays.items()}
+    if params:
+        data["params"] = params
+    camera = scene.camera or shape.camera
+    if camera is not None:
+        data["camera"] = {k: v for k, v in dataclasses.asdict(camera).items() if v is not None}
+    data["material"] = dataclasses.asdict(scene.material)
+    data["lights"] = [dataclasses.asdict(light) for light in scene.lights]
+    return tomli_w.dumps(data)
+
+
+def _bounds_data(bounds: Bounds) -> Any:
+    if isinstance(bounds, Ball):
+        return bounds.radius if not any(bounds.center) else dataclasses.asdict(bounds)
+    return dataclasses.asdict(bounds)
+
+
+def save(scene: Scene, path: str | os.PathLike[str]) -> Path:
+    """Write a scene file, whole or not at all.
+
+    Raises:
+        OutputError: the file cannot be written.
+    """
+    from zeroset.atomic import replacing
+
+    target = Path(path)
+    if target.suffix.lower() != ".toml":
+        raise SceneFileError(f"cannot tell the format of {target.name!r}", path=path, hint="scene files end in .toml")
+    data = dumps(scene).encode()
+    with replacing(target) as file:
+        file.write(data)
+    return target

@@ -1,0 +1,96 @@
+"""Bounds for a surface that has none: subdivide space with intervals and keep the boxes that can hold a zero.
+
+All boxes of a level are evaluated at once, as intervals over NumPy arrays. The hull of what is kept tightens level by
+level; a surface that still reaches the ends of the searched cube goes on for ever as far as a picture is concerned,
+and gets a ball of a handy size instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from zeroset.arith import F64, Interval, IntervalSystem
+from zeroset.scene.bounds import Ball
+
+if TYPE_CHECKING:
+    from zeroset.scene.surface import Surface
+
+SEARCHED = 64.0
+"""Half the side of the cube that is searched."""
+UNBOUNDED = 6.0
+"""Radius that a surface gets which leaves the cube."""
+BOXES = 6000
+"""Boxes that a level may keep; beyond, the hull is good enough."""
+LEVELS = 12
+
+Corners = npt.NDArray[np.float64]
+
+
+def fit_bounds(surface: Surface) -> Ball:
+    """The smallest ball found around the surface; the unit ball where space holds no zero at all."""
+    low, high = np.full((1, 3), -SEARCHED), np.full((1, 3), SEARCHED)
+    for _ in range(LEVELS):
+        inner_low, inner_high = _split(low, high)
+        kept = _may_hold_zero(surface, inner_low, inner_high)
+        low, high = inner_low[kept], inner_high[kept]
+        if not len(low) or len(low) > BOXES:
+            break
+    if not len(low):
+        return Ball(1.0)
+    if np.any(low.min(axis=0) <= -SEARCHED) or np.any(high.max(axis=0) >= SEARCHED):
+        return Ball(UNBOUNDED)
+    center = 0.5 * (low.min(axis=0) + high.max(axis=0))
+    far = np.maximum(np.abs(low - center), np.abs(high - center))
+    radius = float(np.sqrt((far**2).sum(axis=1)).max())
+    # A ball around the origin reads better and costs little where the surface is nearly centred.
+    about_origin = float(np.sqrt((np.maximum(np.abs(low), np.abs(high)) ** 2).sum(axis=1)).max())
+    if about_origin <= 1.1 * radius:
+        return Ball(about_origin * 1.01)
+    return Ball(radius * 1.01, (float(center[0]), float(center[1]), float(center[2])))
+
+
+def _split(low: Corners, high: Corners) -> tuple[Corners, Corners]:
+    """The eight halves of each box."""
+    middle = 0.5 * (low + high)
+    lows, highs = [], []
+    for corner in range(8):
+        upper = np.array([corner >> axis & 1 for axis in range(3)], bool)
+        lows.append(np.where(upper, middle, low))
+        highs.append(np.where(upper, high, middle))
+    return np.concatenate(lows), np.concatenate(highs)
+
+
+def _may_hold_zero(surface: Surface, low: Corners, high: Corners) -> npt.NDArray[np.bool_]:
+    system = IntervalSystem(F64)
+    env = _Boxes(surface, system, low, high)
+    with np.errstate(all="ignore"):
+        f = surface.field.evaluate(system, env)
+        return np.broadcast_to(np.asarray(f.contains_zero()), (len(low),))
+
+
+class _Boxes:
+    """Leaves of f over many boxes at once."""
+
+    def __init__(self, surface: Surface, system: IntervalSystem, low: Corners, high: Corners) -> None:
+        self._surface = surface
+        self._system = system
+        self._axes = {name: system.bounds(low[:, i], high[:, i]) for i, name in enumerate("xyz")}
+
+    def variable(self, name: str) -> Interval:
+        known = self._axes.get(name)
+        return known if known is not None else self.parameter(name)
+
+    def parameter(self, name: str) -> Interval:
+        value = self._surface.params[name]
+        return self._system.constant(value, value)
+
+    def sum(self, system: Any, arrays: tuple[str, ...], body: Callable[[Mapping[str, Interval]], Interval]) -> Interval:
+        total = system.constant(0.0, 0.0)
+        for values in zip(*(self._surface.arrays[name] for name in arrays), strict=True):
+            total = total + body({n: system.constant(float(v), float(v)) for n, v in zip(arrays, values, strict=True)})
+        result: Interval = total
+        return result

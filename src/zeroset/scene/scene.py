@@ -1,0 +1,46 @@
+"""A scene: a surface with its camera, material, lights and background; what a ``.toml`` file holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from zeroset.errors import ZerosetError
+from zeroset.scene.camera import Camera
+from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material
+from zeroset.scene.surface import Surface, surface
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Everything that a picture needs.
+
+    Attributes:
+        surface: what is drawn.
+        camera: how it is seen; None takes the surface's own, or one that fits its bounds.
+        material: its colours and reflectance.
+        lights: where the light comes from.
+        background: linear RGB behind everything.
+
+    Example:
+        >>> import zeroset as zs
+        >>> scene = zs.Scene(zs.surface("x^2 + y^2 = z"), background=(0.0, 0.0, 0.0))
+        >>> scene.background
+        (0.0, 0.0, 0.0)
+    """
+
+    surface: Surface
+    camera: Camera | None = None
+    material: Material = field(default_factory=Material)
+    lights: tuple[Light, ...] = DEFAULT_LIGHTS
+    background: Color = DEFAULT_BACKGROUND
+
+
+def as_scene(value: Surface | Scene | str) -> Scene:
+    """A Scene as it is, a Surface or a formula with everything else by default."""
+    if isinstance(value, Scene):
+        return value
+    if isinstance(value, Surface):
+        return Scene(value)
+    if isinstance(value, str):
+        return Scene(surface(value))
+    raise ZerosetError(f"cannot draw a {type(value).__name__}", hint="give a Surface, a Scene or a formula as text")

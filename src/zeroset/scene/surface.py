@@ -1,0 +1,245 @@
+"""A surface: f with values for its parameters, where it is drawn and how it is seen.
+
+``surface`` makes one from anything that is a formula. A Surface is immutable; ``with_params`` and friends give changed
+copies, and a copy that differs only in numbers runs on the same compiled kernels.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from zeroset.errors import ArrayShapeError, FormulaError, ParameterError, did_you_mean
+from zeroset.expr import Expr, degree, evaluate, parse, text
+from zeroset.scene.bounds import Bounds, parse_bounds
+from zeroset.scene.camera import Camera
+
+if TYPE_CHECKING:
+    import sympy
+
+TIME = "w"
+"""The fourth variable: a uniform like any parameter, 0 unless it is given."""
+
+
+@dataclass(frozen=True)
+class ExprField:
+    """An expression as something to evaluate on any number system."""
+
+    expr: Expr
+
+    @property
+    def digest(self) -> str:
+        """Hash of the expression's structure."""
+        return self.expr.digest
+
+    @property
+    def parameters(self) -> frozenset[str]:
+        """Scalar parameters, with ``w`` where it is used."""
+        return self.expr.parameters | (self.expr.variables & {TIME})
+
+    @property
+    def arrays(self) -> frozenset[str]:
+        """Array parameters."""
+        return self.expr.arrays
+
+    @cached_property
+    def degree(self) -> int | None:
+        """An upper bound of the degree in x, y, z; None for what is no polynomial."""
+        return degree(self.expr)
+
+    def evaluate(self, system: Any, env: Any) -> Any:
+        """f on numbers of ``system``."""
+        return evaluate(self.expr, system, env)
+
+
+@dataclass(frozen=True)
+class Surface:
+    """The set f = 0 inside bounds.
+
+    Attributes:
+        field: f.
+        params: value of each scalar parameter.
+        arrays: value of each array parameter, 1-D.
+        bounds: where it is drawn; None is fitted on first use.
+        camera: how it is seen by default; None fits the bounds.
+        name: what it is called, or "".
+
+    Example:
+        >>> import zeroset as zs
+        >>> s = zs.surface("x^2 + y^2 + z^2 = r^2", params={"r": 1.5})
+        >>> s.with_params(r=2.0).params["r"]
+        2.0
+    """
+
+    field: ExprField
+    params: Mapping[str, float] = field(default_factory=dict)
+    arrays: Mapping[str, npt.NDArray[np.float64]] = field(default_factory=dict)
+    bounds: Bounds | None = None
+    camera: Camera | None = None
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        params = {TIME: 0.0} if TIME in self.field.parameters else {}
+        params |= {k: _number(k, v) for k, v in self.params.items()}
+        arrays = {k: _array(k, v) for k, v in self.arrays.items()}
+        _check_names(self.field, params, arrays)
+        object.__setattr__(self, "params", MappingProxyType(params))
+        object.__setattr__(self, "arrays", MappingProxyType(arrays))
+
+    @property
+    def formula(self) -> str:
+        """The formula as text."""
+        return text(self.field.expr)
+
+    def with_params(self, **values: Any) -> Surface:
+        """The same surface with other parameter values; nothing is compiled anew."""
+        params, arrays = dict(self.params), dict(self.arrays)
+        for name, value in values.items():
+            if name not in params and name not in arrays:
+                known = (*params, *arrays)
+                raise ParameterError(
+                    f"the surface has no parameter {name!r}",
+                    hints=(*did_you_mean(name, known), f"it has {', '.join(known) or 'none'}"),
+                )
+            (arrays if name in arrays else params)[name] = value
+        return dataclasses.replace(self, params=params, arrays=arrays)
+
+    def with_bounds(self, bounds: Any) -> Surface:
+        """The same surface inside other bounds."""
+        return dataclasses.replace(self, bounds=parse_bounds(bounds))
+
+    @cached_property
+    def fitted(self) -> Bounds:
+        """The bounds, fitted by interval subdivision where none were given."""
+        if self.bounds is not None:
+            return self.bounds
+        from zeroset.scene.fit import fit_bounds
+
+        return fit_bounds(self)
+
+    def __repr__(self) -> str:
+        formula = self.formula
+        shown = formula if len(formula) <= 60 else formula[:57] + "..."
+        return f"<zeroset.Surface {self.name or shown!r}>"
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ParameterError(f"the parameter {name} must be a number, not {value!r}") from None
+    if not math.isfinite(number) or abs(number) > 1e30:
+        raise ParameterError(f"the parameter {name} must be finite and below 1e30, not {number!r}")
+    return number
+
+
+def _array(name: str, value: Any) -> npt.NDArray[np.float64]:
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ArrayShapeError(f"the array parameter {name} must hold numbers") from None
+    if array.ndim != 1 or not len(array):
+        raise ArrayShapeError(f"the array parameter {name} must be one row of numbers, not of shape {array.shape}")
+    if not np.all(np.abs(array) <= 1e30):
+        raise ArrayShapeError(f"the array parameter {name} must be finite")
+    array.flags.writeable = False
+    return array
+
+
+def _check_names(field: ExprField, params: Mapping[str, float], arrays: Mapping[str, Any]) -> None:
+    for wanted, given, what in ((field.parameters, params, "parameter"), (field.arrays, arrays, "array parameter")):
+        missing = sorted(wanted - set(given))
+        if missing:
+            raise ParameterError(f"the {what} {missing[0]} has no value", hint=f"give it one: params={{{missing[0]!r}: ...}}")
+        extra = sorted(set(given) - wanted - {TIME})
+        if extra:
+            raise ParameterError(
+                f"the formula has no {what} {extra[0]!r}", hints=did_you_mean(extra[0], field.parameters | field.arrays)
+            )
+    for group in index_groups(field.expr):
+        lengths = {len(arrays[name]) for name in group}
+        if len(lengths) > 1:
+            raise ArrayShapeError(f"arrays summed over together must be equally long: {', '.join(sorted(group))}")
+
+
+def index_groups(expr: Expr) -> list[frozenset[str]]:
+    """Array parameters that share a sum's index, sum by sum."""
+    from zeroset.expr.dag import postorder
+
+    groups: dict[str, set[str]] = {}
+    for part in postorder(expr):
+        if part.op == "element":
+            array, index = (str(item) for item in part.data)
+            groups.setdefault(index, set()).add(array)
+    return [frozenset(group) for group in groups.values()]
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim > 0)
+
+
+def surface(
+    source: str | Expr | Surface | Callable[..., Any] | sympy.Basic,
+    params: Mapping[str, Any] | None = None,
+    bounds: Any = None,
+    camera: Camera | None = None,
+    name: str = "",
+) -> Surface:
+    """A surface from anything that is a formula.
+
+    Args:
+        source: text (``"x^2 + y^2 = 1"``; ``"f"`` alone means f = 0), a SymPy expression or equation, a NumPy-style
+            function of x, y, z (and w), an expression, or a Surface to change.
+        params: values of parameters: numbers, or 1-D arrays for names that the formula indexes, as ``r[i]``.
+        bounds: a number (ball of that radius at the origin), a ``Ball``, a ``Box``, or None to fit the surface.
+        camera: how to see it by default.
+        name: what to call it.
+
+    Raises:
+        FormulaError: the text is no formula; the message shows where.
+        ParameterError: a parameter lacks a value, or a value lacks a parameter.
+        BoundsError: the bounds are empty or no bounds.
+
+    Example:
+        >>> import zeroset as zs
+        >>> zs.surface("x^4 - a*x^2 + y^4 + z^4", params={"a": 5.0}, bounds=3.0).params["a"]
+        5.0
+    """
+    values = dict(params or {})
+    limits = parse_bounds(bounds)
+    if isinstance(source, Surface):
+        changed = source.with_params(**values) if values else source
+        changed = changed if limits is None else dataclasses.replace(changed, bounds=limits)
+        return changed if camera is None else dataclasses.replace(changed, camera=camera)
+    scalars = {k: v for k, v in values.items() if not _is_array(v)}
+    arrays = {k: v for k, v in values.items() if _is_array(v)}
+    expr, defaults = _expression(source, scalars, arrays)
+    return Surface(ExprField(expr), {**defaults, **scalars}, arrays, limits, camera, name)
+
+
+def _expression(source: Any, scalars: Mapping[str, Any], arrays: Mapping[str, Any]) -> tuple[Expr, dict[str, Any]]:
+    if isinstance(source, str):
+        return parse(source, params=set(scalars) - {TIME}, arrays=set(arrays)), {}
+    if isinstance(source, Expr):
+        return source, {}
+    if type(source).__module__.partition(".")[0] == "sympy":
+        from zeroset.expr import from_sympy
+
+        return from_sympy(source), {}
+    if callable(source):
+        from zeroset.expr import trace
+
+        traced = trace(source)
+        return traced.expr, traced.params
+    raise FormulaError(
+        f"cannot make a surface of {type(source).__name__}",
+        hints=("give a formula as text, a SymPy expression, or a function of x, y, z",),
+    )

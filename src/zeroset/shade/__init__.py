@@ -1,0 +1,1 @@
+"""Kernel functions that turn a G-buffer into light: reflectance and tone."""

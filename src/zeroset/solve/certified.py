@@ -1,0 +1,83 @@
+"""The general certified methods: an enclosure of f, and a walk along the ray.
+
+``interval`` and ``affine`` bisect t without a stack (K09 section 5.5) or the dominant axis (section 4.2), as the paper
+does; ``auto`` strides, cutting each interval to what the affine form leaves of it, which near a simple root squares
+the width each time. All three share ``search.py`` and prove what they answer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from zeroset.arith import AffineSystem, Format, IntervalSystem
+from zeroset.errors import MethodError
+from zeroset.solve.method import Method, register
+from zeroset.solve.problem import Answer, Problem
+from zeroset.solve.search import search
+from zeroset.solve.systems import automatic_system
+from zeroset.solve.walk import AxisBisecting, Bisecting, Striding, Walk
+
+
+@dataclass(frozen=True)
+class _Bisection(Method):
+    """Options shared by K09's two methods.
+
+    Attributes:
+        axis: ``"t"`` bisects the ray parameter, ``"k"`` the dominant axis.
+    """
+
+    certified: ClassVar[bool] = True
+
+    axis: str = "t"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.axis not in ("t", "k"):
+            raise MethodError(f"{self.name}: axis must be 't' or 'k', not {self.axis!r}")
+
+    def system(self, fmt: Format) -> Any:
+        """The number system that encloses f."""
+        raise NotImplementedError
+
+    def trace(self, problem: Problem) -> Answer:
+        walk: Walk = AxisBisecting() if self.axis == "k" else Bisecting()
+        return search(problem, self.system(problem.fmt), walk)
+
+
+@register
+@dataclass(frozen=True)
+class Interval(_Bisection):
+    """K09's interval bisection: the plain interval extension of f."""
+
+    name: ClassVar[str] = "interval"
+    summary: ClassVar[str] = "interval arithmetic, bisecting t or the dominant axis (K09 4.2, 5.5)"
+
+    def system(self, fmt: Format) -> Any:
+        return IntervalSystem(fmt)
+
+
+@register
+@dataclass(frozen=True)
+class Affine(_Bisection):
+    """K09's reduced affine bisection, with affine extensions of every operation."""
+
+    name: ClassVar[str] = "affine"
+    summary: ClassVar[str] = "reduced affine arithmetic, bisecting t or the dominant axis (K09 3.3, 5.3, 5.5)"
+
+    def system(self, fmt: Format) -> Any:
+        return AffineSystem(fmt, symbols=1)
+
+
+@register
+@dataclass(frozen=True)
+class Auto(Method):
+    """The default: strides with affine cuts; the interval is kept beside the form where that pays."""
+
+    name: ClassVar[str] = "auto"
+    certified: ClassVar[bool] = True
+    summary: ClassVar[str] = "picks by degree and operators; always certified"
+
+    def trace(self, problem: Problem) -> Answer:
+        return search(problem, automatic_system(problem.lowered.field, problem.fmt), Striding())
+

@@ -1,0 +1,139 @@
+"""What a ray method sees of a surface: f, evaluated on any number system inside the kernel being traced.
+
+``Field`` is all that the methods ask of a surface: something that can be evaluated on numbers. The expression DAG is
+the first such thing; procedures and spline patches are later ones. ``Lowered`` binds a field to one kernel: its
+parameters are uniforms (value and storage error), its array parameters buffers, its sums loops.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+from zeroset.kernel import F32, U32, Buffer, KernelBuilder, Type, Value, for_, load
+
+Number = Any
+"""A number of whichever system is being evaluated."""
+
+OFFSET = "offset of f"
+"""Parameter that no formula can name: what the offset option takes off f."""
+
+def parameter_names(name: str, type_: Type) -> tuple[str, str]:
+    """The uniforms that hold a parameter, as a kernel of one scalar type reads it: value and storage error."""
+    return f"p_{name}_{type_}", f"p_{name}_{type_}_error"
+
+
+def array_names(name: str, type_: Type) -> tuple[str, str]:
+    """The buffers that hold an array parameter: values and storage errors."""
+    return f"a_{name}_{type_}", f"a_{name}_{type_}_error"
+
+
+def length_name(name: str) -> str:
+    """The uniform that holds how many elements an array parameter has."""
+    return f"a_{name}_length"
+
+
+class Field(Protocol):
+    """A real function of x, y, z (and w) that can be evaluated on any number system."""
+
+    @property
+    def digest(self) -> str:
+        """A hash of what is computed; equal fields have equal digests in every process."""
+
+    @property
+    def parameters(self) -> frozenset[str]:
+        """Names of scalar parameters, ``w`` among them where it is used."""
+
+    @property
+    def arrays(self) -> frozenset[str]:
+        """Names of array parameters."""
+
+    @property
+    def degree(self) -> int | None:
+        """An upper bound of the polynomial degree in x, y, z; None where f is no polynomial."""
+
+    def evaluate(self, system: Any, env: Any) -> Number:
+        """f on numbers of ``system`` with leaves from ``env``."""
+
+
+class Lowered:
+    """One field inside one kernel.
+
+    Attributes:
+        field: what is evaluated.
+        builder: the kernel being traced.
+        type: scalar type of the evaluation, f32 or f64.
+    """
+
+    def __init__(self, field: Field, builder: KernelBuilder, type_: Type = F32, offset: bool = False) -> None:
+        self.field = field
+        self.builder = builder
+        self.type = type_
+        self._parameters = {name: self._uniform_pair(name) for name in sorted(field.parameters)}
+        self._offset = self._uniform_pair(OFFSET) if offset else None
+        self._arrays = {name: self._array(name) for name in sorted(field.arrays)}
+
+    def _uniform_pair(self, name: str) -> tuple[Value, Value]:
+        value, error = parameter_names(name, self.type)
+        return self.builder.uniform(value, self.type), self.builder.uniform(error, self.type)
+
+    def _array(self, name: str) -> tuple[Buffer, Buffer, Value]:
+        data, error = (self.builder.buffer(key, self.type) for key in array_names(name, self.type))
+        return data, error, self.builder.uniform(length_name(name), U32)
+
+    def evaluate(self, system: Any, x: Number, y: Number, z: Number) -> Number:
+        """f at numbers of ``system``; the offset, where there is one, is taken off."""
+        value = self.field.evaluate(system, _Env(self, system, {"x": x, "y": y, "z": z}))
+        return value if self._offset is None else value - system.enclose(*self._offset)
+
+    def along(self, system: Any, ray: Ray, t: Number) -> Number:
+        """f at ``origin + t * direction``."""
+        point = [system.exact(o) + system.exact(d) * t for o, d in zip(ray.origin, ray.direction, strict=True)]
+        return self.evaluate(system, *point)
+
+
+class Ray:
+    """Origin and direction of the lane's ray, three Values each, taken as exact."""
+
+    __slots__ = ("direction", "origin")
+
+    def __init__(self, origin: tuple[Value, ...], direction: tuple[Value, ...]) -> None:
+        self.origin = origin
+        self.direction = direction
+
+
+class _Env:
+    def __init__(self, lowered: Lowered, system: Any, variables: Mapping[str, Number]) -> None:
+        self._lowered = lowered
+        self._system = system
+        self._variables = variables
+
+    def variable(self, name: str) -> Number:
+        known = self._variables.get(name)
+        return known if known is not None else self.parameter(name)
+
+    def parameter(self, name: str) -> Number:
+        return self._system.enclose(*self._lowered._parameters[name])
+
+    def sum(self, system: Any, arrays: tuple[str, ...], body: Callable[[Mapping[str, Number]], Number]) -> Number:
+        """A kernel loop over the elements; the sum so far is the loop's state, flattened to its scalars."""
+        lowered = self._lowered
+        count = lowered._arrays[arrays[0]][2]
+
+        def step(i: Value, *state: Value) -> tuple[Value, ...]:
+            elements = {}
+            for name in arrays:
+                data, error, _ = lowered._arrays[name]
+                elements[name] = system.enclose(load(data, i), load(error, i))
+            total = system.rebuild(list(state)) + body(elements)
+            return tuple(system.components(system.general(total)))
+
+        start = system.components(system.general(system.constant(0.0, 0.0)))
+        lifted = [v if isinstance(v, Value) else _constant(v, lowered.type) for v in start]
+        return system.rebuild(list(for_(count, step, *lifted)))
+
+
+def _constant(value: float | bool, type_: Type) -> Value:
+    from zeroset.kernel import BOOL, constant
+
+    return constant(value, BOOL if isinstance(value, bool) else type_)

@@ -1,0 +1,91 @@
+"""Ray methods by name: each is a dataclass of options that traces itself into a kernel.
+
+A method's options split into *structure*, which shapes the kernel (and so its cache key), and *uniforms*, numbers that
+change without recompiling. A new method is one new file with a ``@register``-ed class.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, TypeVar
+
+from zeroset.errors import MethodError, nearest_names
+from zeroset.kernel import F32, Value
+from zeroset.solve.field import Field
+from zeroset.solve.problem import Answer, Problem
+
+METHODS: dict[str, type[Method]] = {}
+
+
+def uniform(default: float) -> Any:
+    """A method option that is a uniform: changing it does not recompile."""
+    return field(default=default, metadata={"uniform": True})
+
+
+@dataclass(frozen=True)
+class Method:
+    """Base of every ray method.
+
+    Attributes:
+        offset: draw f = offset instead of f = 0 (SN10 figure 6); any method.
+    """
+
+    name: ClassVar[str] = ""
+    certified: ClassVar[bool] = False
+    summary: ClassVar[str] = ""
+
+    offset: float = uniform(0.0)
+
+    def __post_init__(self) -> None:
+        for item in dataclasses.fields(self):
+            value = getattr(self, item.name)
+            if isinstance(value, float) and not math.isfinite(value):
+                raise MethodError(f"{self.name}: {item.name} must be finite, not {value!r}")
+
+    def structure(self) -> str:
+        """What shapes the kernel: the name and the options that are no uniforms."""
+        fixed = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if not f.metadata.get("uniform")}
+        return f"{self.name} {fixed} offset={self.offset != 0.0}"
+
+    def uniforms(self) -> dict[str, float]:
+        """Values of the options that are uniforms, by the name that the kernel knows them by; the offset is no such."""
+        named = {f.name: float(getattr(self, f.name)) for f in dataclasses.fields(self) if f.metadata.get("uniform")}
+        return {f"m_{key}": value for key, value in named.items() if key != "offset"}
+
+    def option(self, problem: Problem, name: str) -> Value:
+        """The uniform of one option, while tracing."""
+        return problem.lowered.builder.uniform(f"m_{name}", F32).convert(problem.type)
+
+    def check(self, field: Field) -> None:
+        """Raise ``MethodError`` where the method cannot treat this field."""
+
+    def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root into the kernel being traced."""
+        raise NotImplementedError
+
+
+M = TypeVar("M", bound=type[Method])
+
+
+def register(cls: M) -> M:
+    """Class decorator: make a method known by its name."""
+    METHODS[cls.name] = cls
+    return cls
+
+
+def resolve_method(method: str | Method) -> Method:
+    """A method from its name or an instance with options; raises ``MethodError`` with the nearest names."""
+    if isinstance(method, Method):
+        return method
+    if isinstance(method, type) and issubclass(method, Method):
+        return method()
+    known = METHODS.get(str(method))
+    if known is None:
+        near = nearest_names(str(method), METHODS)
+        raise MethodError(
+            f"there is no method {method!r}",
+            hints=([f"did you mean {near[0]!r}?"] if near else []) + [f"the methods are {', '.join(METHODS)}"],
+        )
+    return known()

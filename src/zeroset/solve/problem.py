@@ -1,0 +1,75 @@
+"""What every ray method is given and what it gives back, as Values of the kernel being traced.
+
+A ``Problem`` is one lane's ray with the stretch of t to search; an ``Answer`` is what the lane found. Statuses are the
+public ones: MISS (proven, for a certified method), HIT (a sign change is proven in an interval no wider than the
+tolerance, nothing before it) and UNRESOLVED (an interval no wider than the tolerance that can be neither excluded nor
+shown to hold a sign change).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from zeroset.arith import F32 as FORMAT32
+from zeroset.arith import F64 as FORMAT64
+from zeroset.arith import Format
+from zeroset.kernel import F32, Scalar, Type, Value, constant, lift
+from zeroset.solve.field import Lowered, Ray
+
+MISS, HIT, UNRESOLVED = 0, 1, 2
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One lane's search for the first root of f along its ray.
+
+    Attributes:
+        lowered: f, ready to be evaluated on any number system.
+        ray: origin and direction.
+        t0: start of the stretch inside the bounds.
+        t1: its end; the ray misses the bounds where ``t1 <= t0``.
+        tolerance: in units of t, at least a few units in the last place of t.
+        step: a first guess of a step that might be free of roots.
+    """
+
+    lowered: Lowered
+    ray: Ray
+    t0: Value
+    t1: Value
+    tolerance: Value
+    step: Value
+
+    @property
+    def type(self) -> Type:
+        """The scalar type that the search runs in."""
+        return self.t0.type
+
+    @property
+    def fmt(self) -> Format:
+        """Its format, for number systems."""
+        return FORMAT32 if self.type == F32 else FORMAT64
+
+    def number(self, value: float) -> Value:
+        """A constant of the search's type."""
+        return constant(value, self.type)
+
+    def lift(self, value: Scalar) -> Value:
+        """A Value as it is, a Python number as a constant: numbers of a system may hold either."""
+        return lift(value, self.type)
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a lane found.
+
+    Attributes:
+        t: where; meaningless on a miss.
+        status: MISS, HIT or UNRESOLVED, u32.
+        steps: evaluations spent, u32.
+        clear: of a certified method that found something: there is certainly no root between the start and here.
+    """
+
+    t: Value
+    status: Value
+    steps: Value
+    clear: Value

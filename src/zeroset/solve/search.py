@@ -1,0 +1,156 @@
+"""The certified search: the first interval of t, along one ray, that can hold a root.
+
+One loop serves every enclosing number system and every walk. Each turn evaluates f on one interval [a, b]:
+
+- excluded: f keeps one sign there, which is remembered;
+- an affine form cuts it to the part [left, right] that can hold roots, and tells the sign on either side of it;
+- as narrow as the tolerance and still not excluded: it joins the *zone*, and the walk goes on behind it. The first
+  stretch behind the zone where f has a certain sign decides: the other sign than before the zone proves a root inside
+  (HIT); the same sign, or a zone that does not end within three intervals, is UNRESOLVED.
+
+So existence costs no evaluations of its own, and nothing is claimed that an enclosure has not shown.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from zeroset.arith import Affine as AffineForm
+from zeroset.arith import AffineSystem
+from zeroset.kernel import BOOL, U32, Value, constant, while_
+from zeroset.solve.problem import HIT, MISS, UNRESOLVED, Answer, Problem
+from zeroset.solve.walk import State, Walk
+
+ZONE = 3
+"""How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What one evaluation says of an interval [a, b].
+
+    Attributes:
+        excluded: mask, f has no root there.
+        crosses: mask, f certainly changes sign there, continuously.
+        defined: mask, f is defined and continuous there.
+        left: every root is at or after it.
+        right: every root is at or before it.
+        before: sign of f on [a, left), or on [a, b] where that is excluded.
+        after: sign of f on (right, b].
+    """
+
+    excluded: Value
+    crosses: Value | bool
+    defined: Value | bool
+    left: Value
+    right: Value
+    before: Value
+    after: Value
+
+
+def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
+    """Evaluate f on [a, b] and read off what it proves."""
+    middle = (a + b) * 0.5
+    # The rounded middle is not exactly in the middle, and the subtraction rounds too: a hair wider covers both.
+    half = (b - middle).maximum(middle - a) * (1.0 + 2.0**-20)
+    f = problem.lowered.along(system, problem.ray, stretch(system, middle, half))
+    excluded = ~f.contains_zero()
+    one = problem.number(1.0)
+    sign = (problem.lift(f.interval().lo) > 0.0).select(one, -one)
+    if not isinstance(f, AffineForm):
+        return Look(excluded, False, f.defined, a, b, sign, sign)
+    cut = f.contract()
+    left = problem.lift(cut.low).fma(half, middle).maximum(a)
+    right = problem.lift(cut.high).fma(half, middle).minimum(b)
+    after = cut.rising.select(one, -one)
+    return Look(excluded, cut.crosses, f.defined, left, right, excluded.select(sign, -after), after)
+
+
+def stretch(system: Any, middle: Value, half: Value) -> Any:
+    """The numbers middle - half ... middle + half of an enclosing system; t is symbol 0 of an affine one."""
+    return system.symbol(0, middle, half) if isinstance(system, AffineSystem) else system.enclose(middle, half)
+
+
+@dataclass(frozen=True, slots=True)
+class _Zone:
+    """Narrowest intervals in a row that could not be excluded, and the last certain sign before them."""
+
+    sign: Value
+    count: Value
+    start: Value
+    whole: Value
+
+    def components(self) -> State:
+        return self.sign, self.count, self.start, self.whole
+
+
+def search(problem: Problem, system: Any, walk: Walk, wanted: Value | None = None) -> Answer:
+    """The first root along the ray, with proof; lanes that are not ``wanted`` do nothing. See the module's text."""
+    first = walk.start(problem)
+    n = len(first)
+    none = constant(0, U32)
+    alive = problem.t1 > problem.t0
+    if wanted is not None:
+        alive = alive & wanted
+    zone = _Zone(problem.number(0.0), none, problem.t0, constant(True, BOOL))
+
+    def running(*state: Value) -> Value:
+        return state[n]
+
+    def turn(*state: Value) -> State:
+        found, place, zone = _turn(problem, system, walk, state[:n], _Zone(*state[n + 1 : n + 5]))
+        over = found.status.ne(MISS) | walk.ended(problem, place)
+        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, found.start
+
+    begin = (constant(MISS, U32), problem.t0, none, problem.t0)
+    state = while_(running, turn, *first, alive, *zone.components(), *begin)
+    return Answer(state[n + 6], state[n + 5], state[n + 7], state[n + 8])
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    status: Value
+    t: Value
+    start: Value
+
+
+def _turn(problem: Problem, system: Any, walk: Walk, place: State, zone: _Zone) -> tuple[_Found, State, _Zone]:
+    """One evaluation and what follows from it."""
+    a, b = walk.interval(problem, place)
+    seen = look(problem, system, a, b)
+    skipped = b <= a
+    excluded = seen.excluded | skipped
+    # The form's error shrinks with the square of the width that is looked at: a cut alone is no reason to give up.
+    narrowest = walk.narrowest(problem, place, b - a) & ~excluded
+    proven = seen.crosses & (seen.right - seen.left <= problem.tolerance)
+    in_zone = zone.count > 0
+    cut = ~excluded & (seen.left > a)
+
+    # A stretch with a certain sign behind the zone closes it: all of [a, b], or [a, left).
+    closes = in_zone & ((excluded & ~skipped) | cut)
+    joins = narrowest & ~closes
+    start = in_zone.select(zone.start, seen.left)
+    whole = (~in_zone | zone.whole) & seen.defined
+    sign = cut.select(seen.before, zone.sign)
+    # Right of what joins, up to b, the sign may be known as well: then the zone closes at once.
+    ends = joins & (seen.right < b)
+    crossed = (closes & (zone.sign * seen.before < 0.0) & zone.whole) | (ends & (sign * seen.after < 0.0) & whole)
+    hit = crossed | (proven & ~closes)
+    unresolved = (closes | ends | (joins & (zone.count >= ZONE - 1))) & ~hit
+
+    left_place = walk.leave(problem, place, excluded.select(b, seen.right), narrowest)
+    cut_place = walk.narrow(problem, place, seen.left, seen.right)
+    moved = tuple((excluded | narrowest).select(x, y) for x, y in zip(left_place, cut_place, strict=True))
+
+    trailing = walk.ended(problem, moved) & (in_zone | joins) & ~hit
+    status = hit.select(HIT, (unresolved | trailing).select(constant(UNRESOLVED, U32), MISS))
+    end = closes.select(a, seen.right)
+    learnt = cut | (seen.excluded & ~skipped)
+    after = _Zone(
+        learnt.select(seen.before, zone.sign),
+        joins.select(zone.count + 1, zone.count),
+        joins.select(start, zone.start),
+        joins.select(whole, zone.whole),
+    )
+    return _Found(status, (start + end) * 0.5, start), moved, after

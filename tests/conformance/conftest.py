@@ -1,0 +1,100 @@
+"""One suite, every backend: each test here runs on each of ``devices()`` and is held to the interpreter, bit for bit.
+
+A new backend joins by one line in ``devices``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from zeroset.kernel import Kernel, interp, verify
+from zeroset.kernel.passes import optimise
+from zeroset.runtime import Device
+from zeroset.runtime.cache import Cache
+from zeroset.runtime.cpu import CpuDevice, host
+
+Agree = Callable[..., dict[str, np.ndarray[Any, Any]]]
+
+
+def devices() -> dict[str, Device]:
+    """Every backend of this machine. Contraction is off: with it, sums of products may differ by a rounding."""
+    return {
+        **{f"cpu-{t.name}": CpuDevice(t.uncontracted(), threads=2, cache=Cache(None)) for t in host()},
+    }
+
+
+DEVICES = devices()
+
+
+@pytest.fixture(params=DEVICES, scope="session")
+def device(request: pytest.FixtureRequest) -> Device:
+    """Each backend in turn."""
+    return DEVICES[request.param]
+
+
+@pytest.fixture
+def packet(device: Device) -> int:
+    """Lanes that vote together; 1 is right for a device that does not say."""
+    return device.target.width if isinstance(device, CpuDevice) else 1
+
+
+def differences(a: np.ndarray[Any, Any], b: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Where two arrays differ in any bit; NaNs are all one."""
+    bits = f"u{a.dtype.itemsize}"
+    different = a.view(bits) != b.view(bits)
+    if a.dtype.kind == "f":
+        different &= ~(np.isnan(a) & np.isnan(b))
+    return np.flatnonzero(different)
+
+
+@pytest.fixture(scope="session")
+def differ() -> Callable[..., np.ndarray[Any, Any]]:
+    return differences
+
+
+def agree_on(
+    device: Device,
+    kernel: Kernel,
+    count: int,
+    buffers: Mapping[str, np.ndarray[Any, Any]],
+    uniforms: Mapping[str, float] | None = None,
+) -> dict[str, np.ndarray[Any, Any]]:
+    """Run a kernel as it is and optimised on the interpreter, and on a device; give back what all of them wrote."""
+    expected = {name: data.copy() for name, data in buffers.items()}
+    interp.run(verify(kernel), count, uniforms or {}, expected)
+    optimised = {name: data.copy() for name, data in buffers.items()}
+    interp.run(optimise(kernel), count, uniforms or {}, optimised)
+    given = {}
+    for buffer in kernel.buffers:
+        given[buffer.name] = device.allocate(buffer.type, len(buffers[buffer.name]))
+        device.write(given[buffer.name], buffers[buffer.name])
+    device.compile(kernel).run(count, uniforms or {}, given)
+    for buffer in kernel.buffers:
+        for who, result in (("passes", optimised[buffer.name]), (device.name, device.read(given[buffer.name]))):
+            wrong = differences(expected[buffer.name], result)
+            assert not len(wrong), (
+                f"{who} differs in {buffer.name} at {wrong[:8]}: {result[wrong][:8]} for {expected[buffer.name][wrong][:8]}"
+            )
+    return expected
+
+
+@pytest.fixture
+def agree(device: Device) -> Agree:
+    """``agree(kernel, count, buffers, uniforms)`` on the device under test."""
+    return lambda *arguments, **named: agree_on(device, *arguments, **named)
+
+
+@pytest.fixture(scope="session")
+def agree_everywhere() -> Agree:
+    """The same on every device at once, for generated kernels."""
+
+    def check(kernel: Kernel, count: int, *arguments: Any, votes: bool = False) -> None:
+        for one in DEVICES.values():
+            width = one.target.width if isinstance(one, CpuDevice) else 1
+            agree_on(one, kernel, width if votes else count, *arguments)
+
+    return check
