@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from zeroset.errors import UnknownSurfaceError
 from zeroset.gallery import BallBounds, GalleryEntry, entry, names
 from zeroset.scene.bounds import Ball, Bounds, Box
 from zeroset.scene.camera import Camera
@@ -20,6 +21,13 @@ class Gallery(Mapping[str, Surface]):
     """
 
     def __getitem__(self, name: str) -> Surface:
+        """The surface of that name.
+
+        Raises:
+            UnknownSurfaceError: there is none; the message has the nearest names.
+        """
+        if not isinstance(name, str):
+            raise UnknownSurfaceError(f"surfaces have names, so the gallery has no {name!r}")
         return from_entry(entry(name))
 
     def __iter__(self) -> Iterator[str]:

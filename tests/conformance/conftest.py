@@ -76,9 +76,8 @@ def agree_on(
     for buffer in kernel.buffers:
         for who, result in (("passes", optimised[buffer.name]), (device.name, device.read(given[buffer.name]))):
             wrong = differences(expected[buffer.name], result)
-            assert not len(wrong), (
-                f"{who} differs in {buffer.name} at {wrong[:8]}: {result[wrong][:8]} for {expected[buffer.name][wrong][:8]}"
-            )
+            right = expected[buffer.name][wrong][:8]
+            assert not len(wrong), f"{who}: {buffer.name}{wrong[:8]} is {result[wrong][:8]}, not {right}"
     return expected
 
 

@@ -38,8 +38,8 @@ def test_neighbours(agree: Callable[..., object], shift: int) -> None:
 def test_an_index_through_floats_is_no_index(agree: Callable[..., object]) -> None:
     with KernelBuilder("floats") as k:
         source, out, i = k.buffer("source", F32), k.buffer("out", F32, writable=True), k.index()
-        store(out, i, load(source, (i.convert(F32) * 0.5 + 1.0).convert(U32)))
-    agree(k.kernel, 37, {"source": np.arange(37, dtype=np.float32), "out": np.zeros(37, np.float32)})
+        store(out, i, load(source, (i.convert(F32) + 1.75).convert(U32)))
+    agree(k.kernel, 37, {"source": np.arange(40, dtype=np.float32), "out": np.zeros(37, np.float32)})
 
 
 def test_inactive_lanes_touch_nothing(device: Device) -> None:
@@ -73,13 +73,13 @@ def test_uniform_loads_of_arrays(agree: Callable[..., object]) -> None:
     )
 
 
-def test_stores_are_seen_by_later_loads(agree: Callable[..., object]) -> None:
+def test_stores_are_seen_by_later_loads(agree: Callable[..., object], packet: int) -> None:
     with KernelBuilder("again") as k:
         x, i = k.buffer("x", F32, writable=True), k.index()
         before = load(x, i)
         store(x, i, before + 1.0)
-        store(x, i, load(x, i) * before)
-    agree(k.kernel, 37, {"x": np.arange(37, dtype=np.float32)})
+        store(x, i, load(x, i) * before + load(x, 0))
+    agree(k.kernel, packet, {"x": np.arange(packet, dtype=np.float32)})
 
 
 @pytest.mark.parametrize("type_", [I32, U32], ids=str)
@@ -103,6 +103,21 @@ def test_atomics_of_one_packet(agree: Callable[..., object], packet: int, operat
         "before": np.zeros(packet, type_.dtype),
     }
     agree(k.kernel, packet, data)
+
+
+def test_lanes_that_add_to_one_element(agree: Callable[..., object], packet: int) -> None:
+    random = np.random.default_rng(13)
+    with KernelBuilder("together") as k:
+        value, cells = k.buffer("value", I32), k.buffer("cells", I32, writable=True)
+        before, i = k.buffer("before", I32, writable=True), k.index()
+
+        def turn() -> None:
+            store(before, i, atomic("add", cells, k.uniform("place", U32), load(value, i)))
+            atomic("add", cells, 2, 5)
+
+        if_(load(value, i) > 0, turn)
+    data = {"value": random.integers(-9, 10, packet), "cells": np.arange(3), "before": np.zeros(packet)}
+    agree(k.kernel, packet, {name: values.astype(np.int32) for name, values in data.items()}, {"place": 1})
 
 
 @pytest.mark.parametrize("place", ["uniform", "varying"])

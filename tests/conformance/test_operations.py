@@ -220,7 +220,7 @@ def test_fma_rounds_once_or_twice(device: Device, differ: Callable[..., Array], 
     result = device.read(buffers["out"])
     for at in differ(twice, result):
         x, y, z = (float(v[at]) for v in (a, b, c))
-        assert np.isfinite([x, y]).all() and not np.isnan(z), f"fma({x}, {y}, {z}) is {result[at]}, not {twice[at]}"
+        assert np.isfinite([x, y]).all(), f"fma({x}, {y}, {z}) is {result[at]}, not {twice[at]}"
         once = nearest(Fraction(x) * Fraction(y) + Fraction(z), type_) if np.isfinite(z) else z
         assert result[at] == once, f"fma({x!r}, {y!r}, {z!r}) is {result[at]!r}, neither {once!r} nor {twice[at]!r}"
 

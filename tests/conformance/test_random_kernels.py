@@ -182,7 +182,7 @@ def inputs(seed: int) -> tuple[dict[str, np.ndarray[Any, Any]], dict[str, float]
 
 
 SETTINGS = settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
+    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
 )
 
 

@@ -102,7 +102,9 @@ class Jet:
 
     __slots__ = ("d", "empty", "positive", "v", "whole")
 
-    def __init__(self, v: Ball, d: Ball | None, whole: bool = True, empty: bool = False, positive: bool = False) -> None:
+    def __init__(
+        self, v: Ball, d: Ball | None, whole: bool = True, empty: bool = False, positive: bool = False
+    ) -> None:
         self.v = v
         self.d = d
         self.whole = whole

@@ -1,12 +1,12 @@
 """The judge: where a ray first meets f = 0, certified by Arb.
 
-``judge`` takes the exact real ray through a float32 origin and direction and the exact bounds, and lists from the
-left what is on it: certain roots, and places where Arb could not exclude one; everything between them is certainly
-free of roots. It stops at the first certain root well inside the bounds.
+``Judge.first_root`` takes the exact real ray through a float32 origin and direction and the exact bounds, and lists
+from the left what is on it: certain roots, and places where Arb could not exclude one; everything between them is
+certainly free of roots. It stops at the first certain root well inside the bounds.
 
-Polynomials with rational coefficients are treated exactly: f along the ray has rational coefficients too, its roots are
-isolated by FLINT with their multiplicities, and nothing stays open. Everything else is bisected on balls with a derivative:
-f excluded, mean value form excluded, monotone with signs at the ends.
+Polynomials over the rationals and one square root are treated exactly (``surds.py``): nothing stays open there.
+Everything else is bisected on balls with a derivative: f excluded, mean value form excluded, monotone with signs at
+the ends.
 """
 
 from __future__ import annotations
@@ -15,24 +15,26 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from flint import arb, fmpq
 
 from zeroset import Ball, Surface
-from zeroset.render.render import default_tolerance
 
 from .jets import ONE, ZERO, Jet, hull, precise
+from .surds import Surd
 from .tape import Tape, rational
 
 EDGE = 4.0
 """A root within so many tolerances of the bounds, or of the ray's start, may be found or not."""
 NARROW = 2.0**-36
 """Relative width at which the judge stops bisecting."""
-WORK = 6000
-"""Evaluations that the judge spends on one ray."""
+WORK = 3000
+"""Evaluations that the judge spends on one ray, unless told otherwise."""
+FINE = 2.0**-14
+"""The default tolerance, relative to the bounds' extent."""
 FAR = 1e30
 
 
@@ -61,12 +63,14 @@ class Verdict:
 
     Attributes:
         events: from the left, up to the first certain root that is no edge.
-        tolerance: the effective one in units of t: at least 2^-20 of the farthest t, as `Problem` says.
+        tolerance: the effective one in units of t: at least 2^-20 of the farthest t, below which f32 has no steps.
+        stretch: where on the ray an answer may lie at all; None where the ray misses the bounds.
         work: evaluations spent; 0 for an exact answer.
     """
 
     events: tuple[Event, ...]
     tolerance: float
+    stretch: tuple[float, float] | None
     work: int
 
     @property
@@ -78,11 +82,6 @@ class Verdict:
     def settled(self) -> bool:
         """Whether Arb could tell everything."""
         return all(e.kind is not Kind.OPEN for e in self.events)
-
-
-@lru_cache(maxsize=256)
-def _tape(surface: Surface) -> Tape:
-    return Tape(surface)
 
 
 Interval = tuple[Any, Any]
@@ -98,13 +97,13 @@ class Line:
         self.length = float(np.linalg.norm(np.asarray(direction, dtype=np.float64)))
         self._bounds = surface.fitted
         exact = self._inside(0.0)
-        tolerance = default_tolerance(self._bounds) / self.length
+        tolerance = FINE * self._bounds.extent / self.length
         self.tolerance = tolerance
         if exact is not None:
             self.tolerance = max(tolerance, 2.0**-20 * max(abs(float(exact[0].mid())), abs(float(exact[1].mid()))))
 
     def stretch(self, wider: float, t_min: float, t_max: float) -> Interval | None:
-        """The stretch inside the bounds moved outwards by so many tolerances, clipped to the ray's own range likewise."""
+        """The stretch inside the bounds moved outwards by so many tolerances, and inside the ray's range likewise."""
         slack = wider * self.tolerance
         found = self._inside(slack * self.length)
         if found is None:
@@ -142,79 +141,106 @@ class Line:
         return (a, b) if a < b else None
 
 
-def judge(
-    surface: Surface,
-    origin: Sequence[float],
-    direction: Sequence[float],
-    t_min: float = 0.0,
-    t_max: float = math.inf,
-) -> Verdict:
-    """What the exact ray meets, at the default tolerance."""
-    line = Line(surface, origin, direction)
-    outer, inner = line.stretch(EDGE, t_min, t_max), line.stretch(-EDGE, t_min, t_max)
-    if outer is None:
-        return Verdict((), line.tolerance, 0)
-    tape = _tape(surface)
-    work = [0]
-    polynomial = tape.polynomial(line.origin, line.direction)
-    found = _exact(polynomial, outer) if polynomial is not None else _bisected(tape, line, outer, work)
-    events: list[Event] = []
-    for a, b, kind in found:
-        inside = inner is not None and bool(a >= inner[0]) and bool(b <= inner[1])
-        if kind is Kind.LINE and inner is not None:
-            a, b, inside = inner[0], inner[0], True
-        events.append(Event(float(a), float(b), kind, not inside))
-        if inside and kind is not Kind.OPEN:
-            break
-    return Verdict(tuple(events), line.tolerance, work[0])
+class Judge:
+    """Judges rays at one surface."""
+
+    def __init__(self, surface: Surface, work: int = WORK) -> None:
+        self.surface = surface
+        self._work = work
+        self._tape = Tape(surface)
+        self._constants = self._tape.jets()
+
+    def first_root(
+        self,
+        origin: Sequence[float],
+        direction: Sequence[float],
+        t_min: float = 0.0,
+        t_max: float = math.inf,
+    ) -> Verdict:
+        """What the exact ray meets, at the default tolerance."""
+        line = Line(self.surface, origin, direction)
+        outer, inner = line.stretch(EDGE, t_min, t_max), line.stretch(-EDGE, t_min, t_max)
+        if outer is None:
+            return Verdict((), line.tolerance, None, 0)
+        work = Work(self._work)
+        polynomial = self._tape.polynomial(line.origin, line.direction)
+        found = _exact(polynomial, outer) if polynomial is not None else _bisected(self._tape, line, outer, work)
+        events: list[Event] = []
+        for a, b, kind in found:
+            inside = inner is not None and bool(a >= inner[0]) and bool(b <= inner[1])
+            if kind is Kind.LINE and inner is not None:
+                # To be found at once, wherever exactly the bounds begin.
+                a, b, inside = outer[0], inner[0], True
+            events.append(Event(float(a), float(b), kind, not inside))
+            if inside and kind is not Kind.OPEN:
+                break
+        return Verdict(tuple(events), line.tolerance, (float(outer[0]), float(outer[1])), work.spent)
+
+    def gradient(self, point: Sequence[float]) -> tuple[float, float, float]:
+        """The gradient of f at a point; nan where there is none."""
+        x, y, z = (self._slope(point, axis) for axis in range(3))
+        return x, y, z
+
+    def _slope(self, point: Sequence[float], axis: int) -> float:
+        numbers = [Jet(arb(float(v)), ONE if k == axis else ZERO) for k, v in enumerate(point)]
+        slope = self._tape.run(numbers, self._constants).d
+        return float(slope.mid()) if slope is not None and slope.is_finite() else math.nan
 
 
 Found = Iterator[tuple[Any, Any, Kind]]
 
 
-def _exact(polynomial: Any, outer: Interval) -> Found:
-    """All real roots of a polynomial with rational coefficients, with multiplicity."""
-    if polynomial.degree() < 1:
-        if polynomial.degree() < 0:
-            yield outer[0], outer[1], Kind.LINE
+def _exact(polynomial: Surd, outer: Interval) -> Found:
+    """All roots on the stretch."""
+    if polynomial.is_zero:
+        yield outer[0], outer[1], Kind.LINE
         return
-    roots = [(root.real, times) for root, times in polynomial.numer().complex_roots() if root.imag == 0]
-    for root, times in sorted(roots, key=lambda item: float(item[0].mid())):
+    for root, times in polynomial.roots():
         if not (root < outer[0] or root > outer[1]):
             yield root.lower(), root.upper(), Kind.CROSS if times % 2 else Kind.TOUCH
 
 
-class _OutOfWork(Exception):
+class _OutOfWork(Exception):  # noqa: N818 -- no error, an answer
     pass
 
 
-def _bisected(tape: Tape, line: Line, outer: Interval, work: list[int]) -> Found:
+@dataclass
+class Work:
+    """Evaluations that one ray may cost, and has cost."""
+
+    limit: int
+    spent: int = 0
+
+    def spend(self) -> None:
+        self.spent += 1
+        if self.spent > self.limit:
+            raise _OutOfWork
+
+
+def _bisected(tape: Tape, line: Line, outer: Interval, work: Work) -> Found:
     """Events of any f, by balls; places that stay open and lie side by side are one."""
     cells = _Cells(tape, line, work)
-    open_: list[Any] = []
+    start: Any = None
+    end: Any = None
     try:
         for a, b, kind in cells.search(*outer):
+            if start is not None and (kind is not Kind.OPEN or a > end):
+                yield start, end, Kind.OPEN
+                start = None
             if kind is Kind.OPEN:
-                open_ = [open_[0] if open_ and a <= open_[1] else a, b] if not open_ or a <= open_[1] else open_ + [a, b]
-                if len(open_) == 4:
-                    yield open_[0], open_[1], Kind.OPEN
-                    open_ = open_[2:]
-                continue
-            if open_:
-                yield open_[0], open_[1], Kind.OPEN
-                open_ = []
-            yield a, b, kind
+                start, end = a if start is None else start, b
+            else:
+                yield a, b, kind
     except _OutOfWork:
-        yield open_[0] if open_ else cells.clear, outer[1], Kind.OPEN
-        return
-    if open_:
-        yield open_[0], open_[1], Kind.OPEN
+        start, end = cells.clear if start is None else start, outer[1]
+    if start is not None:
+        yield start, end, Kind.OPEN
 
 
 class _Cells:
     """Bisection from the left. ``clear``: everything before it has been dealt with."""
 
-    def __init__(self, tape: Tape, line: Line, work: list[int]) -> None:
+    def __init__(self, tape: Tape, line: Line, work: Work) -> None:
         self._tape = tape
         self._constants = tape.jets()
         self._line = [(arb(o), arb(d)) for o, d in zip(line.origin, line.direction, strict=True)]
@@ -222,9 +248,7 @@ class _Cells:
         self.clear: Any = ZERO
 
     def _f(self, t: Any) -> Jet:
-        self._work[0] += 1
-        if self._work[0] > WORK:
-            raise _OutOfWork
+        self._work.spend()
         found = self._tape.run([Jet(o + t * d, d) for o, d in self._line], self._constants)
         assert isinstance(found, Jet)
         return found
@@ -237,7 +261,7 @@ class _Cells:
         # Not by halves: rays through symmetric places have their roots at simple fractions of the stretch.
         cuts = [start + (end - start) * fmpq(k * 1021 + 17, 8201) for k in range(1, 8)]
         ends = [start, *(cut.mid() for cut in cuts), end]
-        stack = [(a, b) for a, b in zip(ends, ends[1:], strict=False)][::-1]
+        stack = [(a, b) for a, b in pairwise(ends)][::-1]
         least = (end - start) * NARROW
         while stack:
             a, b = stack.pop()
@@ -284,6 +308,3 @@ class _Cells:
                     break
                 a, b = (cut, b) if side < 0 else (a, cut)
         yield a.mid(), b.mid(), Kind.CROSS
-
-
-__all__ = ["EDGE", "ONE", "Event", "Kind", "Line", "Verdict", "judge"]

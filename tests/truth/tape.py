@@ -17,6 +17,7 @@ from zeroset import Surface
 from zeroset.expr import OPS, Expr, postorder
 
 from .jets import ZERO, Jet, precise
+from .surds import Beyond, Surd
 
 Step = tuple[str, tuple[int, ...], tuple[Any, ...]]
 AXES = ("x", "y", "z")
@@ -37,6 +38,8 @@ class Tape:
         self._constants: dict[int, fmpq | str] = {}
         self._known: dict[tuple[Expr, tuple[tuple[str, int], ...]], int] = {}
         self.result = self._emit(surface.field.expr, {})
+        exact = not any(isinstance(value, str) for value in self._constants.values())
+        self._algebraic = exact and all(method == "const" or hasattr(Surd, method) for method, _, _ in self._steps)
 
     def _place(self, step: Step) -> int:
         self._steps.append(step)
@@ -53,9 +56,13 @@ class Tape:
         def key(part: Expr) -> tuple[Expr, tuple[tuple[str, int], ...]]:
             return part, tuple(sorted((name, indices[name]) for name in part.indices))
 
-        for part in postorder(expr, lambda part: () if part.op == "sum" or key(part) in self._known else part.args):
+        def needs(part: Expr) -> tuple[Expr, ...]:
+            return () if part.op == "sum" or key(part) in self._known else part.args
+
+        for part in postorder(expr, needs):
             if key(part) not in self._known:
-                self._known[key(part)] = self._step(part, [self._known[key(a)] for a in part.args if part.op != "sum"], indices)
+                args = () if part.op == "sum" else part.args
+                self._known[key(part)] = self._step(part, [self._known[key(arg)] for arg in args], indices)
         return self._known[key(expr)]
 
     def _step(self, part: Expr, args: Sequence[int], indices: Mapping[str, int]) -> int:
@@ -96,47 +103,14 @@ class Tape:
         balls = {place: arb.pi() if isinstance(value, str) else arb(value) for place, value in self._constants.items()}
         return {place: Jet(ball, ZERO, positive=bool(ball >= 0)) for place, ball in balls.items()}
 
-    def polynomial(self, origin: Sequence[fmpq], direction: Sequence[fmpq]) -> fmpq_poly | None:
-        """f along a ray, exactly; None where f is no polynomial with rational coefficients."""
-        if any(isinstance(value, str) for value in self._constants.values()):
+    def polynomial(self, origin: Sequence[fmpq], direction: Sequence[fmpq]) -> Surd | None:
+        """f along a ray, exactly; None where f is no polynomial over the rationals and one square root."""
+        if not self._algebraic:
             return None
-        constants = {place: Rational(fmpq_poly([value])) for place, value in self._constants.items()}
+        constants = {place: Surd(fmpq_poly([value])) for place, value in self._constants.items()}
         try:
-            found = self.run([Rational(fmpq_poly([o, d])) for o, d in zip(origin, direction, strict=True)], constants)
-        except AttributeError:
+            found = self.run([Surd(fmpq_poly([o, d])) for o, d in zip(origin, direction, strict=True)], constants)
+        except Beyond:
             return None
-        return found.p if isinstance(found, Rational) else None
-
-
-class Rational:
-    """A polynomial in t with rational coefficients; operators that leave them are missing."""
-
-    __slots__ = ("p",)
-
-    def __init__(self, p: fmpq_poly) -> None:
-        self.p = p
-
-    def add(self, o: Rational) -> Rational:
-        return Rational(self.p + o.p)
-
-    def sub(self, o: Rational) -> Rational:
-        return Rational(self.p - o.p)
-
-    def mul(self, o: Rational) -> Rational:
-        return Rational(self.p * o.p)
-
-    def neg(self) -> Rational:
-        return Rational(-self.p)
-
-    def sqr(self) -> Rational:
-        return Rational(self.p * self.p)
-
-    def powi(self, n: int) -> Rational:
-        if n < 0:
-            return Rational(fmpq_poly([1])).div(self.powi(-n))
-        return Rational(self.p**n)
-
-    def div(self, o: Rational) -> Rational:
-        if o.p.degree() != 0:
-            raise AttributeError("no polynomial")
-        return Rational(self.p * (1 / o.p[0]))
+        assert isinstance(found, Surd)
+        return found

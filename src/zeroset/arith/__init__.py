@@ -7,10 +7,12 @@ numbers of kernel Values writes the kernel that computes its extension; on float
 from zeroset.arith.affine import Affine
 from zeroset.arith.affine_system import AffineSystem
 from zeroset.arith.contraction import Contraction
+from zeroset.arith.dual import Dual, DualSystem
 from zeroset.arith.flags import Flags
 from zeroset.arith.format import F32, F64, Format
 from zeroset.arith.interval import Interval, IntervalSystem
 from zeroset.arith.number import Condition, Number, System
+from zeroset.arith.poly import NotPolynomialError, Poly, PolySystem
 from zeroset.arith.real import Real, RealSystem
 
 __all__ = [
@@ -20,11 +22,16 @@ __all__ = [
     "AffineSystem",
     "Condition",
     "Contraction",
+    "Dual",
+    "DualSystem",
     "Flags",
     "Format",
     "Interval",
     "IntervalSystem",
+    "NotPolynomialError",
     "Number",
+    "Poly",
+    "PolySystem",
     "Real",
     "RealSystem",
     "System",

@@ -22,7 +22,19 @@ from zeroset.arith.interval import Interval
 from zeroset.arith.number import Number
 from zeroset.arith.rounding import clamp
 from zeroset.arith.scalar import (
-    Mask, Scalar, absolute, add, fma, gt, is_literal, is_zero, maximum, minimum, not_, or_, sub,
+    Mask,
+    Scalar,
+    absolute,
+    add,
+    fma,
+    gt,
+    is_literal,
+    is_zero,
+    maximum,
+    minimum,
+    not_,
+    or_,
+    sub,
 )  # fmt: skip
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from zeroset.arith import scalar as s
-from zeroset.arith.budget import MARGIN, STOCK, Budget, bought, funded, magnitude, quanta
+from zeroset.arith.budget import MARGIN, STOCK, Budget, bought, funded, quanta
 from zeroset.arith.number import Number
 from zeroset.arith.scalar import Scalar, absolute, fma, is_literal, is_zero
 

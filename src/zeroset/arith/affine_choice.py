@@ -14,6 +14,7 @@ from zeroset.arith.affine_arithmetic import stocked
 from zeroset.arith.budget import Budget, funded, quanta
 from zeroset.arith.condition import Undecided
 from zeroset.arith.interval import Interval, IntervalCondition
+from zeroset.arith.interval_arithmetic import mod_and_steps
 from zeroset.arith.linearise import narrower
 from zeroset.arith.number import Number
 from zeroset.arith.scalar import Scalar, fma, ge, gt, is_literal, le, lt, select
@@ -98,7 +99,7 @@ def floor(a: Affine) -> Affine:
 
 def mod(a: Affine, b: Affine) -> Affine:
     """a - b floor(a/b), with the slope of ``a`` where the floor is decided."""
-    return narrower(Number.mod(a, b), a.interval().mod(b.interval()))
+    return narrower(Number.mod(a, b), *mod_and_steps(a.interval(), b.interval()))
 
 
 def less(a: Affine, b: Affine) -> AffineCondition:
@@ -131,8 +132,9 @@ class AffineCondition(Undecided["Affine"]):
             )
         fmt = a.fmt
         a, b = stocked(a, 2.1), stocked(b, 2.1)
-        difference = a.sub(b).interval()
-        half = s.maximum(s.absolute(difference.lo), s.absolute(difference.hi))
+        # Not the clamped range: the branch not taken may be undefined, and its form beyond every bound.
+        difference = a.sub(b)
+        half = s.absolute(difference.centre) + difference.reach()
         credit = min(a.budget.credit, b.budget.credit)
         wide = fma(half, fmt.up(0.5 + (credit + 8.0) * fmt.eps), fmt.tiny)
         centre = self._pick(a.centre, b.centre)

@@ -6,14 +6,24 @@ from typing import TYPE_CHECKING
 
 from zeroset.arith import elementary
 from zeroset.arith import scalar as s
-from zeroset.arith.linearise import Expansion, linearise, narrower, picked, point
+from zeroset.arith.interval import Interval
+from zeroset.arith.linearise import Expansion, linearise, narrower, picked, point, span
 from zeroset.arith.scalar import (
-    Scalar, absolute, and_, fma, gt, is_literal, le, lt, maximum, minimum, or_,
+    Scalar,
+    absolute,
+    and_,
+    fma,
+    gt,
+    is_literal,
+    le,
+    lt,
+    maximum,
+    minimum,
+    or_,
 )  # fmt: skip
 
 if TYPE_CHECKING:
     from zeroset.arith.affine import Affine
-    from zeroset.arith.interval import Interval
 
 _HALF_PI = (1.5707963267948966, 1.5707963267948968)
 
@@ -21,26 +31,35 @@ __all__ = ["acos", "asin", "atan", "atan2", "cos", "sin", "tan"]
 
 
 def sin(a: Affine) -> Affine:
-    """The sine: f'' = -f."""
+    """The sine."""
     sine, cosine = elementary.sincos(a.fmt, point(a))
     return _wave(a, "sin", sine, cosine)
 
 
 def cos(a: Affine) -> Affine:
-    """The cosine: f'' = -f."""
+    """The cosine."""
     sine, cosine = elementary.sincos(a.fmt, point(a))
     return _wave(a, "cos", cosine, -sine)
 
 
 def _wave(a: Affine, name: str, value: Scalar, slope: Scalar) -> Affine:
-    fmt, x = a.fmt, a.interval()
-    enclosure: Interval = getattr(x, name)()
+    """f(p + d) = f(p) cos d + f'(p) sin d, so w is between 0 and -f(p)/2, within |f'(p) d|/6.
+
+    That needs no values at the ends of the range; the fallback is [-1, 1], unless an interval goes along.
+    """
+    fmt, p, r = a.fmt, point(a), span(a)
     error = elementary.error_bound(name, fmt)
-    size = maximum(absolute(x.lo), absolute(x.hi))
-    # The reduction's error is absolute, in the value and, times the reach, in the slope.
-    spread = (error.slope * size) * (1.0 + a.reach())
+    size = absolute(p) + r
+    enclosure: Interval
+    if a.system.intersect:
+        enclosure = getattr(a.interval(), name)()
+    else:
+        enclosure = Interval(a.system.intervals, -1.0, 1.0, a.flags)
+    # The reduction's error is absolute: in the value, times d in the slope, times d**2 in w.
+    spread = (error.slope * size) * (1.0 + r) * (1.0 + r)
     valid = le(size, elementary.trigonometric_limit(fmt))
-    low, high = -0.5 * maximum(enclosure.hi, 0.0), -0.5 * minimum(enclosure.lo, 0.0)
+    cubic = (absolute(slope) * r) * (1.0 / 6.0)
+    low, high = fma(maximum(value, 0.0), -0.5, -cubic), fma(minimum(value, 0.0), -0.5, cubic)
     return linearise(a, enclosure, Expansion(value, slope, low, high, error.relative, error.relative, spread, valid))
 
 

@@ -13,9 +13,20 @@ from zeroset.arith import scalar as s
 from zeroset.arith.affine_circular import acos, asin, atan, atan2, cos, sin, tan
 from zeroset.arith.interval import Interval
 from zeroset.arith.interval_arithmetic import literal_reciprocal
-from zeroset.arith.linearise import Expansion, linearise, narrower, point
+from zeroset.arith.linearise import Expansion, linearise, narrower, picked, point, span
+from zeroset.arith.rounding import lower_nonnegative, upper_nonnegative
 from zeroset.arith.scalar import (
-    Mask, Scalar, absolute, and_, fma, gt, lt, maximum, minimum, or_, select,
+    Mask,
+    Scalar,
+    absolute,
+    and_,
+    fma,
+    gt,
+    lt,
+    maximum,
+    minimum,
+    or_,
+    select,
 )  # fmt: skip
 
 if TYPE_CHECKING:
@@ -28,14 +39,15 @@ __all__ = [
 
 
 def _reciprocal(a: Affine) -> tuple[Affine, Mask]:
-    """1/a, and where ``a`` certainly keeps away from 0; w = 1/(p**2 x), exactly."""
+    """1/a, and where ``a`` certainly keeps away from 0; w = 1/x and h = 1/p, exactly."""
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure = x.literal(1.0).div(x)
     regular = or_(gt(x.lo, fmt.tiny), lt(x.hi, -fmt.tiny))
     value = s.div(1.0, p)
-    steep = value * value
-    low, high = steep * minimum(enclosure.lo, 0.0), steep * maximum(enclosure.hi, 0.0)
-    return linearise(a, enclosure, Expansion(value, -steep, low, high, 1.0, 3.0, valid=regular)), regular
+    low, high = minimum(enclosure.lo, 0.0), maximum(enclosure.hi, 0.0)
+    return linearise(
+        a, enclosure, Expansion(value, -(value * value), low, high, 1.0, 3.0, valid=regular, unit=value)
+    ), regular
 
 
 def divide(a: Affine, b: Affine) -> Affine:
@@ -46,24 +58,25 @@ def divide(a: Affine, b: Affine) -> Affine:
             return a.mul(a.system.constant(*literal_reciprocal(divisor)))
     inverse, regular = _reciprocal(b)
     quotient = a.mul(inverse)
-    error = select(regular, quotient.error, 2 * a.fmt.big, like=b.centre)
+    line = a.system.from_interval(Interval(a.system.intervals, -a.fmt.big, a.fmt.big))
+    chosen = picked(regular, quotient, line, like=b.centre)
     bounds = a.interval().div(b.interval()) if a.system.intersect else None
-    return quotient.make(quotient.centre, quotient.terms, error, quotient.budget, bounds=bounds)
+    return chosen.make(chosen.centre, chosen.terms, chosen.error, chosen.budget, quotient.flags, bounds)
 
 
 def sqrt(a: Affine) -> Affine:
-    """The square root: w = -1/(2 q (sqrt(x) + q)**2) with q = sqrt(p), which holds down to x = 0."""
+    """The square root: w = -2 q/(sqrt(x) + q)**2 and h = 1/(2 q) with q = sqrt(p), which holds down to x = 0."""
     p, x = point(a), a.interval()
     enclosure = x.sqrt()
     value = s.sqrt(maximum(p, 0.0))
     slope = s.div(1.0, value + value)
     total = enclosure.lo + value
-    low = -s.div(slope, total * total)
-    return linearise(a, enclosure, Expansion(value, slope, low, 0.0, 1.0, 3.0, valid=gt(p, a.fmt.tiny)))
+    low = -s.div(value + value, total * total)
+    return linearise(a, enclosure, Expansion(value, slope, low, 0.0, 1.0, 3.0, valid=gt(p, a.fmt.tiny), unit=slope))
 
 
 def cbrt(a: Affine) -> Affine:
-    """The cube root: w = -(2 q + y)/(3 q**2 (y**2 + y q + q**2)**2) for y = cbrt(x), q = cbrt(p) of one sign.
+    """The cube root: w = -3 q**2 (2 q + y)/(y**2 + y q + q**2)**2, h = 1/(3 q**2) for y = cbrt(x), q = cbrt(p) of a sign.
 
     Its size falls as |y| grows.
     """
@@ -74,37 +87,51 @@ def cbrt(a: Affine) -> Affine:
     q, y = absolute(value), maximum(maximum(enclosure.lo, s.neg(enclosure.hi)), 0.0)
     slope = s.div(1.0 / 3.0, q * q)
     base = fma(y, y, fma(y, q, q * q))
-    size = s.div(slope * (q + q + y), base * base)
+    size = s.div(q + q + y, base) * s.div(3.0 * (q * q), base)
     above, below = gt(x.lo, fmt.tiny), lt(x.hi, -fmt.tiny)
     low, high = select(above, -size, 0.0), select(above, 0.0, size)
     expansion = Expansion(
-        value, slope, low, high, error.relative, 2 * error.relative + 4, error.absolute, or_(above, below)
+        value, slope, low, high, error.relative, 2 * error.relative + 4, error.absolute, or_(above, below), slope
     )
     return linearise(a, enclosure, expansion)
 
 
 def exp(a: Affine) -> Affine:
     """The exponential: f'' is convex, and w is never negative."""
-    fmt, p, x = a.fmt, point(a), a.interval()
-    enclosure = x.exp()
-    value = elementary.exp(fmt, p)
+    fmt, p, r = a.fmt, point(a), span(a)
     error = elementary.error_bound("exp", fmt)
-    high = fma(enclosure.hi, 1.0 / 6.0, value * (1.0 / 3.0))
+    # minimum keeps its second operand for a NaN: a form that overflowed grows without bound.
+    value, growth = elementary.exp(fmt, p), elementary.exp(fmt, minimum(r, fmt.big))
+    if a.system.intersect:
+        enclosure = a.interval().exp()
+    else:
+        # e**p e**-r to e**p e**r; growth stops at big, and then so must the bound.
+        k = 2 * error.relative + 3.0
+        high = select(lt(growth, 0.5 * fmt.big), minimum(value * growth, fmt.big), fmt.big)
+        enclosure = Interval(
+            a.system.intervals,
+            lower_nonnegative(fmt, value / growth, k, fmt.tiny),
+            upper_nonnegative(fmt, high, k, fmt.tiny),
+            a.flags,
+            nonnegative=True,
+        )
     # Where exp stops at big or loses relative accuracy near tiny the slope is not the value.
     valid = and_(lt(enclosure.hi, fmt.big), gt(enclosure.lo, 2 * fmt.tiny))
+    high = value * fma(growth, 1.0 / 6.0, 1.0 / 3.0)
     return linearise(
         a, enclosure, Expansion(value, value, 0.0, high, error.relative, error.relative, error.absolute, valid)
     )
 
 
 def log(a: Affine) -> Affine:
-    """The logarithm: -f'' = 1/x**2 is convex, and w is never positive."""
+    """The logarithm: -f'' = 1/x**2 is convex; with h = 1/least x, -w <= (least x/p)**2/3 + 1/6."""
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure = x.log()
     error = elementary.error_bound("log", fmt)
-    slope, steepest = s.div(1.0, p), s.div(1.0, x.lo)
-    low = -fma(slope * slope, 1.0 / 3.0, (steepest * steepest) * (1.0 / 6.0))
-    expansion = Expansion(elementary.log(fmt, p), slope, low, 0.0, error.relative, 2.0, valid=gt(x.lo, fmt.tiny))
+    slope, nearest = s.div(1.0, p), s.mul(x.lo, s.div(1.0, p))
+    low = -fma(nearest * nearest, 1.0 / 3.0, 1.0 / 6.0)
+    valid, unit = gt(x.lo, fmt.tiny), s.div(1.0, x.lo)
+    expansion = Expansion(elementary.log(fmt, p), slope, low, 0.0, error.relative, 2.0, valid=valid, unit=unit)
     return linearise(a, enclosure, expansion)
 
 
@@ -154,7 +181,7 @@ def power(a: Affine, b: Affine) -> Affine:
 
 
 def rational_power(a: Affine, exponent: tuple[int, int]) -> Affine:
-    """a**(p/q); w is c x**(p/q-2) up to its mean, c = (p/q)(p/q-1)/2, and monotone."""
+    """a**(p/q); w is c x**(p/q) for h = 1/x and c = (p/q)(p/q-1)/2, at the end where that is most."""
     p, q = exponent
     if p < 0:
         return a.literal(1.0).div(rational_power(a, (-p, q)))
@@ -172,8 +199,9 @@ def _power_expansion(a: Affine, x: Interval, exponent: tuple[int, int]) -> Expan
     value = elementary.powr(fmt, at, exponent)
     slope = s.div(value * fmt.round(ratio), at)
     edge: Scalar = x.lo if ratio < 2 else x.hi
-    bend = s.div(elementary.powr(fmt, edge, exponent), edge * edge) * fmt.round(0.5 * ratio * (ratio - 1))
+    bend = elementary.powr(fmt, edge, exponent) * fmt.round(0.5 * ratio * (ratio - 1))
     low, high = (bend, 0.0) if ratio < 1 else (0.0, bend)
     error = elementary.power_error(exponent)
     grown = fmt.up(1.0 + error * fmt.eps)
-    return Expansion(value, slope, s.mul(low, grown), s.mul(high, grown), error, error + 4, valid=gt(x.lo, fmt.tiny))
+    low, high, valid, unit = s.mul(low, grown), s.mul(high, grown), gt(x.lo, fmt.tiny), s.div(1.0, edge)
+    return Expansion(value, slope, low, high, error, error + 4, valid=valid, unit=unit)

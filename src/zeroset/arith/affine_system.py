@@ -39,15 +39,18 @@ class AffineSystem(System[Affine]):
         return self._fmt
 
     def constant(self, lo: float, hi: float) -> Affine:
+        """The middle of [lo, hi], rounded, with what that leaves as error."""
         middle = self._fmt.round(0.5 * lo + 0.5 * hi)
         widest = max(sub(self._fmt.up(hi), middle), sub(middle, self._fmt.down(lo)))
         error = 0.0 if lo == hi == middle else self._fmt.up(widest)
         return self._with_bounds(self.form(middle, (0.0,) * self.symbols, error), self.intervals.constant(lo, hi))
 
     def exact(self, value: Scalar) -> Affine:
+        """A run-time scalar without error."""
         return self.form(value, (0.0,) * self.symbols)
 
     def enclose(self, value: Scalar, error: Scalar) -> Affine:
+        """A run-time scalar with its error."""
         if is_zero(error):
             return self.exact(value)
         form = self.form(value, (0.0,) * self.symbols, error)
@@ -79,15 +82,18 @@ class AffineSystem(System[Affine]):
         return form
 
     def general(self, number: Affine) -> Affine:
+        """The form with its error repaid and its account empty."""
         error = repaid(self._fmt, number.error, number.budget.depth)
         bounds = number.interval() if self.intersect else None
         return Affine(self, number.centre, number.terms, error, Budget(), number.flags, bounds)
 
     def components(self, number: Affine) -> list[Scalar]:
+        """centre, terms, error, with an interval its bounds too, defined, empty."""
         bounds = [] if number.bounds is None else [number.bounds.lo, number.bounds.hi]
         return [number.centre, *number.terms, number.error, *bounds, number.defined, number.empty]
 
     def rebuild(self, components: list[Scalar]) -> Affine:
+        """The form of these components."""
         n = self.symbols
         flags = Flags(components[-2], components[-1])
         bounds = Interval(self.intervals, components[n + 2], components[n + 3], flags) if self.intersect else None

@@ -32,12 +32,15 @@ class Undecided(Condition[N]):
         self.like = like
 
     def and_(self, other: Self) -> Self:
+        """Both: certain if both are."""
         return self._joined(other, and_(self.true, other.true), or_(self.false, other.false))
 
     def or_(self, other: Self) -> Self:
+        """Either: certainly false if both are."""
         return self._joined(other, or_(self.true, other.true), and_(self.false, other.false))
 
     def not_(self) -> Self:
+        """The opposite."""
         return type(self)(self.false, self.true, self.flags, self.like)
 
     def _joined(self, other: Self, true: Mask, false: Mask) -> Self:

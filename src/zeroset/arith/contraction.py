@@ -9,9 +9,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from zeroset.arith.budget import MARGIN, repaid
+from zeroset.arith.budget import repaid
 from zeroset.arith.scalar import (
-    Mask, Scalar, absolute, add, and_, fma, gt, is_literal, maximum, minimum, not_, select, sub, typed,
+    Mask,
+    Scalar,
+    absolute,
+    add,
+    and_,
+    fma,
+    gt,
+    is_literal,
+    maximum,
+    minimum,
+    not_,
+    select,
+    sub,
 )  # fmt: skip
 
 if TYPE_CHECKING:

@@ -26,6 +26,11 @@ class Flags:
     defined: Mask = True
     empty: Mask = False
 
+    @property
+    def is_total(self) -> bool:
+        """Whether f is defined everywhere, as known while tracing."""
+        return self.defined is True and self.empty is False
+
     def meet(self, *others: Flags) -> Flags:
         """Flags of an expression that uses all the operands."""
         return Flags(and_(self.defined, *(o.defined for o in others)), or_(self.empty, *(o.empty for o in others)))

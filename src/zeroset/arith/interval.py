@@ -16,7 +16,19 @@ from zeroset.arith.format import Format
 from zeroset.arith.number import Number, System
 from zeroset.arith.rounding import lower, upper
 from zeroset.arith.scalar import (
-    Mask, Scalar, ge, gt, is_literal, is_zero, le, lt, maximum, minimum, not_, or_, select,
+    Mask,
+    Scalar,
+    ge,
+    gt,
+    is_literal,
+    is_zero,
+    le,
+    lt,
+    maximum,
+    minimum,
+    not_,
+    or_,
+    select,
 )  # fmt: skip
 
 __all__ = ["Interval", "IntervalCondition", "IntervalSystem"]
@@ -78,7 +90,7 @@ class Interval(Number):
 
     def is_point(self, value: float) -> bool:
         """Whether this is literally the number ``value``, everywhere defined."""
-        return is_literal(self.lo, self.hi) and self.lo == self.hi == value and self.flags == TOTAL
+        return is_literal(self.lo, self.hi) and self.lo == self.hi == value and self.flags.is_total
 
     def contains_zero(self) -> Mask:
         """False only where f certainly has no zero; true for bounds that are NaN."""

@@ -209,9 +209,19 @@ def floor(a: Interval) -> Interval:
 
 def mod(a: Interval, b: Interval) -> Interval:
     """a - b floor(a/b), which lies between 0 and b."""
-    plain = Number.mod(a, b)
-    lo = maximum(plain.lo, minimum(b.lo, 0.0))
-    return a.make(lo, maximum(lo, minimum(plain.hi, maximum(b.hi, 0.0))), plain.flags, b.nonnegative)
+    return mod_and_steps(a, b)[0]
+
+
+def mod_and_steps(a: Interval, b: Interval) -> tuple[Interval, Mask]:
+    """a mod b, and where the quotient is bounded, so that its floor means something."""
+    quotient = divide(a, b)
+    bounded = and_(gt(quotient.lo, -0.5 * a.fmt.big), lt(quotient.hi, 0.5 * a.fmt.big))
+    plain = sub(a, mul(b, floor(quotient)))
+    least, most = minimum(b.lo, 0.0), maximum(b.hi, 0.0)
+    like = a.lo if is_literal(b.lo) else b.lo
+    lo = select(bounded, maximum(plain.lo, least), least, like)
+    hi = select(bounded, maximum(lo, minimum(plain.hi, most)), most, like)
+    return a.make(lo, hi, plain.flags.within(bounded), b.nonnegative), bounded
 
 
 def larger(a: Interval, b: Interval) -> Interval:

@@ -12,7 +12,17 @@ from typing import TYPE_CHECKING
 from zeroset.arith import elementary
 from zeroset.arith.rounding import lower, upper
 from zeroset.arith.scalar import (
-    Mask, Scalar, absolute, floor, fma, gt, maximum, minimum, not_, or_, select,
+    Mask,
+    Scalar,
+    absolute,
+    floor,
+    fma,
+    gt,
+    maximum,
+    minimum,
+    not_,
+    or_,
+    select,
 )  # fmt: skip
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 """The one way in which a function that is not affine becomes an affine form.
 
-For x = p + d, |d| <= r: f(x) = f(p) + f'(p) d + w d**2 with w between two bounds that each function knows on the range
+For x = p + d, |d| <= r: f(x) = f(p) + f'(p) d + w (h d)**2 with w between two bounds that each function knows on the range
 (f''/2 by Taylor, often a closed form that is tighter). So the form keeps the slope f'(p), half of the remainder's range goes
 to the centre and half to the error, with all that was rounded. Where the plain interval of f is narrower, or the expansion
 is not valid (a pole, an edge of the domain), the lane takes that instead. K09 (section 5.4) left these functions to intervals
@@ -14,14 +14,26 @@ from typing import TYPE_CHECKING
 
 from zeroset.arith.budget import Budget, quanta, repaid
 from zeroset.arith.scalar import (
-    Mask, Scalar, absolute, add, and_, fma, is_zero, lt, maximum, minimum, mul, not_, select,
+    Mask,
+    Scalar,
+    absolute,
+    add,
+    and_,
+    fma,
+    is_zero,
+    lt,
+    maximum,
+    minimum,
+    mul,
+    not_,
+    select,
 )  # fmt: skip
 
 if TYPE_CHECKING:
     from zeroset.arith.affine import Affine
     from zeroset.arith.interval import Interval
 
-__all__ = ["Expansion", "linearise", "narrower", "picked", "point"]
+__all__ = ["Expansion", "linearise", "narrower", "picked", "point", "span"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +49,7 @@ class Expansion:
         slope_error: see ``slope``.
         absolute: see ``value``; a scalar.
         valid: mask, the bounds of w hold on the range.
+        unit: the scale h of d in the remainder, chosen so that (h d)**2 neither overflows nor underflows unnoticed.
     """
 
     value: Scalar
@@ -47,6 +60,7 @@ class Expansion:
     slope_error: float
     absolute: Scalar = 0.0
     valid: Mask = True
+    unit: Scalar = 1.0
 
 
 def point(a: Affine) -> Scalar:
@@ -54,6 +68,14 @@ def point(a: Affine) -> Scalar:
     if a.bounds is None:
         return a.centre
     return minimum(maximum(a.centre, a.bounds.lo), a.bounds.hi)
+
+
+def span(a: Affine) -> Scalar:
+    """How far the argument may be from ``point(a)``."""
+    if a.bounds is None:
+        return a.reach()
+    moved = point(a)
+    return maximum(a.bounds.hi - moved, moved - a.bounds.lo)
 
 
 def linearise(a: Affine, enclosure: Interval, at: Expansion) -> Affine:
@@ -69,14 +91,17 @@ def linearise(a: Affine, enclosure: Interval, at: Expansion) -> Affine:
         return fallback
     fmt, moved = a.fmt, point(a)
     reach = a.reach()
-    # The remainder is bounded with the range, the expansion point lying in it, or with the form alone.
-    far = reach if a.bounds is None else maximum(a.bounds.hi - moved, moved - a.bounds.lo)
-    square = far * far
+    relative = mul(at.unit, span(a))
+    square = relative * relative
     high, low = mul(at.high, square), mul(at.low, square)
     spread, shift = 0.5 * (high - low), 0.5 * add(high, low)
     slope = absolute(at.slope)
     own = fma(reach, (at.slope_error + 4.0) * fmt.eps, repaid(fmt, a.error, a.budget.depth + 4))
-    error = fma(spread, fmt.up(1.0 + (at.value_error + 140.0) * fmt.eps), add(fmt.tiny, at.absolute))
+    error = fma(
+        spread,
+        fmt.up(1.0 + (at.value_error + 140.0) * fmt.eps),
+        add(fma(reach, 4 * fmt.quantum, fmt.tiny), at.absolute),
+    )
     error = fma(slope, own, fma(absolute(at.value), (at.value_error + 4.0) * fmt.eps, error))
     centre = add(at.value, shift)
     if a.bounds is not None:
@@ -90,13 +115,14 @@ def linearise(a: Affine, enclosure: Interval, at: Expansion) -> Affine:
 
 
 def narrower(form: Affine, enclosure: Interval, valid: Mask = True) -> Affine:
-    """Lane by lane the form or the interval, whichever is narrower; the interval where the form is not valid."""
+    """Lane by lane the form, or the interval where that is much narrower or the form is not valid."""
     return _narrower(form, form.system.from_interval(enclosure), valid)
 
 
 def _narrower(form: Affine, other: Affine, valid: Mask) -> Affine:
-    # A comparison with NaN is false: what overflowed is dropped.
-    use = and_(valid, lt(form.radius(), other.error))
+    # By the errors, not the radii: a form about as wide as the interval still knows its slope, which later operations
+    # and the contraction live on. A comparison with NaN is false: what overflowed is dropped.
+    use = and_(valid, lt(form.error, 0.5 * other.error))
     chosen = picked(use, form, other)
     return chosen.make(chosen.centre, chosen.terms, chosen.error, chosen.budget, other.flags, other.bounds)
 

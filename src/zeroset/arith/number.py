@@ -27,7 +27,7 @@ class Number(ABC):
         """The system this number belongs to."""
 
     @abstractmethod
-    def add(self, other: Self) -> Self:
+    def add(self, other: Self, /) -> Self:
         """``self + other``."""
 
     @abstractmethod
@@ -35,22 +35,22 @@ class Number(ABC):
         """``-self``."""
 
     @abstractmethod
-    def mul(self, other: Self) -> Self:
+    def mul(self, other: Self, /) -> Self:
         """``self * other``."""
 
     @abstractmethod
-    def div(self, other: Self) -> Self:
+    def div(self, other: Self, /) -> Self:
         """``self / other``; undefined where ``other`` is 0."""
 
     @abstractmethod
     def sqr(self) -> Self:
         """``self**2``."""
 
-    def sub(self, other: Self) -> Self:
+    def sub(self, other: Self, /) -> Self:
         """``self - other``."""
         return self.add(other.neg())
 
-    def powi(self, n: int) -> Self:
+    def powi(self, n: int, /) -> Self:
         """``self**n`` by repeated squares, so that even powers are seen as such."""
         if n < 0:
             return self.literal(1.0).div(self.powi(-n))
@@ -61,11 +61,11 @@ class Number(ABC):
         return self.powi(n // 2).sqr()
 
     @abstractmethod
-    def pow(self, other: Self) -> Self:
+    def pow(self, other: Self, /) -> Self:
         """``self**other`` as exp(other log self): for self > 0, and 0 for self = 0 < other."""
 
     @abstractmethod
-    def powr(self, exponent: tuple[int, int]) -> Self:
+    def powr(self, exponent: tuple[int, int], /) -> Self:
         """``self**(p/q)`` for self >= 0 and a rational exponent ``(p, q)`` that is no integer."""
 
     @abstractmethod
@@ -109,7 +109,7 @@ class Number(ABC):
         """The arc tangent."""
 
     @abstractmethod
-    def atan2(self, other: Self) -> Self:
+    def atan2(self, other: Self, /) -> Self:
         """The angle of the point (other, self), in (-pi, pi]; undefined at the origin."""
 
     @abstractmethod
@@ -140,24 +140,24 @@ class Number(ABC):
         """The smallest integer at or above."""
         return self.neg().floor().neg()
 
-    def mod(self, other: Self) -> Self:
+    def mod(self, other: Self, /) -> Self:
         """``self - other * floor(self / other)``."""
         return self.sub(other.mul(self.div(other).floor()))
 
     @abstractmethod
-    def max(self, other: Self) -> Self:
+    def max(self, other: Self, /) -> Self:
         """The larger of two."""
 
-    def min(self, other: Self) -> Self:
+    def min(self, other: Self, /) -> Self:
         """The smaller of two."""
         return self.neg().max(other.neg()).neg()
 
     @abstractmethod
-    def lt(self, other: Self) -> Condition[Self]:
+    def lt(self, other: Self, /) -> Condition[Self]:
         """Whether ``self < other``."""
 
     @abstractmethod
-    def le(self, other: Self) -> Condition[Self]:
+    def le(self, other: Self, /) -> Condition[Self]:
         """Whether ``self <= other``."""
 
     def literal(self, value: float) -> Self:

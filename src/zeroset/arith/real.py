@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
 
 from zeroset.arith import elementary
 from zeroset.arith import scalar as s
@@ -11,6 +11,24 @@ from zeroset.arith.number import Condition, Number, System
 from zeroset.arith.scalar import Mask, Scalar, and_, ge, gt, le, lt, not_, or_, select
 
 __all__ = ["Real", "RealCondition", "RealSystem"]
+
+
+def _unary(function: Callable[[Scalar], Scalar]) -> Callable[[Real], Real]:
+    return lambda a: a.on(function(a.value))
+
+
+def _binary(function: Callable[[Scalar, Scalar], Scalar]) -> Callable[[Real, Real], Real]:
+    return lambda a, b: a.on(function(a.value, b.value), b.defined)
+
+
+def _elementary(
+    function: Callable[[Format, Scalar], Scalar], inside: Callable[[Scalar], Mask] = lambda x: True
+) -> Callable[[Real], Real]:
+    return lambda a: a.on(function(a.system.fmt, a.value), inside(a.value))
+
+
+def _at_most_one(x: Scalar) -> Mask:
+    return le(s.absolute(x), 1.0)
 
 
 class Real(Number):
@@ -36,107 +54,66 @@ class Real(Number):
         """The system that made this number."""
         return self._system
 
-    def _with(self, value: Scalar, *masks: Mask) -> Real:
+    def on(self, value: Scalar, *masks: Mask) -> Real:
+        """Another number defined where this one is and all the masks hold."""
         return Real(self._system, value, and_(self.defined, *masks))
 
-    def _elementary(self, name: str, *masks: Mask) -> Real:
-        return self._with(getattr(elementary, name)(self._system.fmt, self.value), *masks)
-
-    def add(self, other: Real) -> Real:
-        return self._with(s.add(self.value, other.value), other.defined)
-
-    def sub(self, other: Real) -> Real:
-        return self._with(s.sub(self.value, other.value), other.defined)
-
-    def neg(self) -> Real:
-        return self._with(s.neg(self.value))
-
-    def mul(self, other: Real) -> Real:
-        return self._with(s.mul(self.value, other.value), other.defined)
-
-    def div(self, other: Real) -> Real:
-        divides = s.ne(other.value, 0.0)
-        divisor = select(divides, other.value, 1.0)
-        return self._with(s.div(self.value, divisor), other.defined, divides)
-
-    def sqr(self) -> Real:
-        return self._with(s.mul(self.value, self.value))
+    add = _binary(s.add)
+    sub = _binary(s.sub)
+    mul = _binary(s.mul)
+    max = _binary(s.maximum)
+    min = _binary(s.minimum)
+    neg = _unary(s.neg)
+    sqr = _unary(lambda x: s.mul(x, x))
+    abs = _unary(s.absolute)
+    sign = _unary(s.sign)
+    floor = _unary(s.floor)
+    ceil = _unary(s.ceil)
+    exp = _elementary(elementary.exp)
+    log = _elementary(elementary.log, lambda x: gt(x, 0.0))
+    sin = _elementary(elementary.sin)
+    cos = _elementary(elementary.cos)
+    tan = _elementary(elementary.tan)
+    asin = _elementary(elementary.asin, _at_most_one)
+    acos = _elementary(elementary.acos, _at_most_one)
+    atan = _elementary(elementary.atan)
+    sinh = _elementary(elementary.sinh)
+    cosh = _elementary(elementary.cosh)
+    tanh = _elementary(elementary.tanh)
+    cbrt = _elementary(elementary.cbrt)
 
     def sqrt(self) -> Real:
-        return self._with(s.sqrt(s.maximum(self.value, 0.0)), ge(self.value, 0.0))
+        """The square root, 0 below 0."""
+        return self.on(s.sqrt(s.maximum(self.value, 0.0)), ge(self.value, 0.0))
 
-    def exp(self) -> Real:
-        return self._elementary("exp")
+    def div(self, other: Real, /) -> Real:
+        """The quotient; where the divisor is 0, undefined and finite."""
+        divides = s.ne(other.value, 0.0)
+        divisor = select(divides, other.value, 1.0, like=self.value)
+        return self.on(s.div(self.value, divisor), other.defined, divides)
 
-    def log(self) -> Real:
-        return self._elementary("log", gt(self.value, 0.0))
-
-    def sin(self) -> Real:
-        return self._elementary("sin")
-
-    def cos(self) -> Real:
-        return self._elementary("cos")
-
-    def tan(self) -> Real:
-        return self._elementary("tan")
-
-    def asin(self) -> Real:
-        return self._elementary("asin", le(s.absolute(self.value), 1.0))
-
-    def acos(self) -> Real:
-        return self._elementary("acos", le(s.absolute(self.value), 1.0))
-
-    def atan(self) -> Real:
-        return self._elementary("atan")
-
-    def atan2(self, other: Real) -> Real:
+    def atan2(self, other: Real, /) -> Real:
+        """The angle; undefined at the origin."""
         somewhere = or_(s.ne(self.value, 0.0), s.ne(other.value, 0.0))
-        return self._with(elementary.atan2(self._system.fmt, self.value, other.value), other.defined, somewhere)
+        return self.on(elementary.atan2(self._system.fmt, self.value, other.value), other.defined, somewhere)
 
-    def sinh(self) -> Real:
-        return self._elementary("sinh")
-
-    def cosh(self) -> Real:
-        return self._elementary("cosh")
-
-    def tanh(self) -> Real:
-        return self._elementary("tanh")
-
-    def cbrt(self) -> Real:
-        return self._elementary("cbrt")
-
-    def pow(self, other: Real) -> Real:
+    def pow(self, other: Real, /) -> Real:
+        """The power; for a negative base, or 0 to a power that is not positive, undefined and 0."""
         base, exponent = self.value, other.value
-        power = elementary.pow(self._system.fmt, base, exponent)
         inside = or_(gt(base, 0.0), and_(s.eq(base, 0.0), gt(exponent, 0.0)))
-        return self._with(power, other.defined, inside)
+        return self.on(elementary.pow(self._system.fmt, base, exponent), other.defined, inside)
 
-    def powr(self, exponent: tuple[int, int]) -> Real:
+    def powr(self, exponent: tuple[int, int], /) -> Real:
+        """The power; of a negative number undefined."""
         inside = ge(self.value, 0.0) if exponent[0] > 0 else gt(self.value, 0.0)
-        return self._with(elementary.powr(self._system.fmt, self.value, exponent), inside)
+        return self.on(elementary.powr(self._system.fmt, self.value, exponent), inside)
 
-    def abs(self) -> Real:
-        return self._with(s.absolute(self.value))
-
-    def sign(self) -> Real:
-        return self._with(s.sign(self.value))
-
-    def floor(self) -> Real:
-        return self._with(s.floor(self.value))
-
-    def ceil(self) -> Real:
-        return self._with(s.ceil(self.value))
-
-    def max(self, other: Real) -> Real:
-        return self._with(s.maximum(self.value, other.value), other.defined)
-
-    def min(self, other: Real) -> Real:
-        return self._with(s.minimum(self.value, other.value), other.defined)
-
-    def lt(self, other: Real) -> RealCondition:
+    def lt(self, other: Real, /) -> RealCondition:
+        """The plain comparison."""
         return RealCondition(lt(self.value, other.value), and_(self.defined, other.defined), self.value)
 
-    def le(self, other: Real) -> RealCondition:
+    def le(self, other: Real, /) -> RealCondition:
+        """The plain comparison."""
         return RealCondition(le(self.value, other.value), and_(self.defined, other.defined), self.value)
 
 
@@ -161,15 +138,19 @@ class RealCondition(Condition[Real]):
         return RealCondition(holds, and_(self.defined, other.defined), like)
 
     def and_(self, other: RealCondition) -> RealCondition:
+        """Both."""
         return self._joined(other, and_(self.holds, other.holds))
 
     def or_(self, other: RealCondition) -> RealCondition:
+        """Either."""
         return self._joined(other, or_(self.holds, other.holds))
 
     def not_(self) -> RealCondition:
+        """The opposite."""
         return RealCondition(not_(self.holds), self.defined, self.like)
 
     def select(self, a: Real, b: Real) -> Real:
+        """One of two."""
         either = or_(and_(self.holds, a.defined), and_(not_(self.holds), b.defined))
         defined = True if a.defined is True and b.defined is True else either
         value = select(self.holds, a.value, b.value, self.like)
@@ -192,16 +173,21 @@ class RealSystem(System[Real]):
         return self._fmt
 
     def constant(self, lo: float, hi: float) -> Real:
+        """The number of the format nearest to the middle."""
         return Real(self, self._fmt.round(0.5 * lo + 0.5 * hi))
 
     def enclose(self, value: Scalar, error: Scalar) -> Real:
+        """The value; its error is forgotten."""
         return Real(self, value)
 
     def general(self, number: Real) -> Real:
+        """The number itself."""
         return number
 
-    def components(self, number: Real) -> list[Any]:
+    def components(self, number: Real) -> list[Scalar]:
+        """value, defined."""
         return [number.value, number.defined]
 
-    def rebuild(self, components: list[Any]) -> Real:
+    def rebuild(self, components: list[Scalar]) -> Real:
+        """The number of these two."""
         return Real(self, *components)

@@ -7,6 +7,8 @@ status 2, an interruption in 130; there is no traceback for either.
 from __future__ import annotations
 
 import importlib
+import os
+import re
 import sys
 from typing import Any
 
@@ -38,13 +40,12 @@ class _Lazy(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        try:
-            return super().resolve_command(ctx, args)
-        except click.UsageError as error:
+        if args[0] not in COMMANDS:
             from zeroset.errors import did_you_mean
 
             hints = did_you_mean(args[0], COMMANDS) or ("to draw a formula: zeroset render 'FORMULA' -o out.png",)
-            raise click.UsageError(f"{error.format_message()} {hints[0]}", ctx) from None
+            raise ZerosetError(f"there is no command {args[0]!r}", hints=(*hints, f"there are {', '.join(COMMANDS)}"))
+        return super().resolve_command(ctx, args)
 
 
 @click.command(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]}, no_args_is_help=True)
@@ -57,17 +58,41 @@ def main(args: list[str] | None = None) -> int:
     """Run the command line; gives the exit status."""
     try:
         zeroset.main(args, prog_name="zeroset", standalone_mode=False)
+        sys.stdout.flush()
     except ZerosetError as error:
-        click.echo(f"error: {error}", err=True)
+        click.echo(f"error: {as_options(str(error))}", err=True)
         return 2
     except click.ClickException as error:
         error.show()
         return error.exit_code
     except (KeyboardInterrupt, click.Abort):
-        click.echo("interrupted; nothing was written", err=True)
+        click.echo("interrupted: no file was left half written", err=True)
         return 130
+    except MemoryError:
+        click.echo("error: there is not enough memory for this\n  hint: try a smaller --size", err=True)
+        return 1
     except BrokenPipeError:
-        # The reader of our output has gone (`zeroset gallery | head`): not a mistake of anybody.
-        sys.stderr.close()
+        # The reader of our output has gone (`zeroset gallery | head`). What is still in the buffer goes nowhere.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     return 0
+
+
+_ARGUMENT = re.compile(r"\b(bounds|method|device|up|eye)=(?:'([^']*)'|\"([^\"]*)\"|\(([^)]*)\)|([-+.\deE]*\d))")
+
+
+def as_options(message: str) -> str:
+    """A message whose hints speak of Python's arguments, in the words of the command line.
+
+    Example:
+        >>> print(as_options("no bounds\\n  hint: try bounds=3.0"))
+        no bounds
+          hint: try --bounds 3.0
+    """
+    return "\n".join(_translated(line) if line.startswith("  hint: ") else line for line in message.split("\n"))
+
+
+def _translated(hint: str) -> str:
+    hint = re.sub(r"params=\{'(\w+)': \[([^]]*)\]\}", lambda m: f"-p {m[1]}={m[2].replace(' ', '')}", hint)
+    hint = re.sub(r"params=\{'(\w+)': ([^}]*)\}", r"-p \1=\2", hint)
+    return _ARGUMENT.sub(lambda m: f"--{m[1]} {''.join(filter(None, m.groups()[1:])).replace(' ', '')}", hint)

@@ -3,57 +3,75 @@
 from __future__ import annotations
 
 import importlib.metadata
-import importlib.util
 import platform
 from collections.abc import Iterator
 
 import click
 
-NEEDED = {"numpy": "arrays", "llvmlite": "machine code for the CPU", "lark": "formulas", "pillow": "pictures",
-          "click": "the command line", "rich": "progress", "tomli-w": "writing scene files"}  # fmt: skip
-OPTIONAL = {"sympy": "SymPy expressions as surfaces (pip install 'zeroset[sympy]')"}
+NEEDED = {
+    "numpy": "arrays",
+    "llvmlite": "machine code for the CPU; without it pictures are drawn by the slow interpreter",
+    "lark": "formulas",
+    "pillow": "pictures",
+    "click": "the command line",
+    "rich": "progress",
+    "tomli-w": "writing scene files",
+}
+"""What zeroset is installed with, and what for."""
+OPTIONAL = {"sympy": "SymPy expressions as surfaces: pip install 'zeroset[sympy]'"}
 
 
 @click.command("doctor")
 def command() -> None:
     """Say what this machine offers and what is missing, and draw a small picture to prove it."""
-    for line in (*_machine(), *_packages(), *_devices(), *_cache(), *_trial()):
-        click.echo(line)
+    for part in (_machine, _packages, _devices, _cache, _trial):
+        for line in part():
+            click.echo(line)
 
 
 def _machine() -> Iterator[str]:
     import zeroset
 
-    yield f"zeroset {zeroset.__version__} on Python {platform.python_version()}, {platform.system()} {platform.machine()}"
+    python, system = platform.python_version(), f"{platform.system()} {platform.machine()}"
+    yield f"zeroset  {zeroset.__version__} on Python {python}, {system}"
 
 
 def _packages() -> Iterator[str]:
-    for names, kind in ((NEEDED, "MISSING, needed for"), (OPTIONAL, "not installed, optional:")):
+    yield "packages"
+    for names, kind in ((NEEDED, "MISSING, needed for"), (OPTIONAL, "not installed, optional, for")):
         for name, purpose in names.items():
             try:
-                yield f"  {name} {importlib.metadata.version(name)}"
+                yield f"  {name:9} {importlib.metadata.version(name)}"
             except importlib.metadata.PackageNotFoundError:
-                yield f"  {name} {kind} {purpose}"
+                yield f"  {name:9} {kind} {purpose}"
 
 
 def _devices() -> Iterator[str]:
-    yield "devices"
-    if importlib.util.find_spec("llvmlite") is None:
-        yield "  cpu    absent: llvmlite is not installed; pictures are drawn by the slow interpreter"
-    else:
-        from zeroset.runtime import get_device
-        from zeroset.runtime.pool import thread_count
+    from zeroset.errors import ZerosetError
+    from zeroset.runtime import get_device
 
-        target = get_device("cpu").target  # type: ignore[attr-defined]
-        yield f"  cpu    {target.cpu}, {target.width} lanes of 32 bits, {thread_count()} threads (ZEROSET_THREADS changes that)"
-    yield "  interp always there; defines what kernels mean, slow"
-    yield "  gpu    not part of this version"
+    yield "devices"
+    try:
+        cpu = get_device("cpu")
+        target, threads = cpu.target, cpu.threads  # type: ignore[attr-defined]
+        yield f"  cpu       {target.name} on {target.cpu}: {target.width} lanes of 32 bits, {threads} threads"
+        yield "            (the environment variable ZEROSET_THREADS sets how many threads)"
+    except ZerosetError as error:
+        yield f"  cpu       MISSING: {error}"
+    yield "  interp    there; slow, it defines what kernels mean"
+    yield "  gpu       not part of this version"
 
 
 def _cache() -> Iterator[str]:
-    from zeroset.runtime.cache import status
+    from zeroset.runtime.cache import default_cache
 
-    yield f"cache    {status()}"
+    status = default_cache().status()
+    if not status.enabled:
+        yield f"cache    off: {status.reason}"
+        return
+    yield f"cache    {status.folder}: {status.files} files, {status.size / 1e6:.1f} MB"
+    if status.reason:
+        yield f"         the last write failed: {status.reason}"
 
 
 def _trial() -> Iterator[str]:
@@ -65,5 +83,5 @@ def _trial() -> Iterator[str]:
     except ZerosetError as error:
         yield f"trial    FAILED: {error}"
         return
-    yield f"trial    a sphere, 64x64: {image.hits} pixels, {image.unresolved} unresolved: all is well"
-
+    verdict = "all is well" if image.hits and not image.unresolved else "this is WRONG"
+    yield f"trial    a sphere, 64x64: {image.hits} pixels, {image.unresolved} unresolved: {verdict}"

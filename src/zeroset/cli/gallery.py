@@ -5,9 +5,10 @@ from __future__ import annotations
 import click
 
 from zeroset.cli.progress import Progress
-from zeroset.cli.source import existing_folder
+from zeroset.cli.source import picture_path, read_method
 
 CELL_TEXT = 18
+COLUMNS = 8
 
 
 @click.command("gallery")
@@ -53,28 +54,26 @@ def _describe(name: str) -> None:
 
 
 def _draw_sheet(path: str, cell: int, method: str, device: str) -> None:
-    import io
-
+    import numpy as np
     from PIL import Image, ImageDraw
 
     from zeroset.atomic import replacing
+    from zeroset.render.image import encode, picture_format
     from zeroset.render.render import render
     from zeroset.shelf import gallery
 
-    target = existing_folder(path)
-    columns = 8
-    rows = -(-len(gallery) // columns)
-    page = Image.new("RGB", (columns * cell, rows * (cell + CELL_TEXT)), "white")
+    target, chosen = picture_path(path), read_method(method)
+    rows = -(-len(gallery) // COLUMNS)
+    page = Image.new("RGB", (COLUMNS * cell, rows * (cell + CELL_TEXT)), "white")
     pen = ImageDraw.Draw(page)
     with Progress("drawing the gallery") as progress:
         for i, name in enumerate(gallery):
             progress(i / len(gallery))
-            picture = render(gallery[name], cell, method=method, device=device)
-            x, y = i % columns * cell, i // columns * (cell + CELL_TEXT)
-            page.paste(Image.fromarray(picture.pixels), (x, y))
+            picture = render(gallery[name], cell, method=chosen, device=device)
+            x, y = i % COLUMNS * cell, i // COLUMNS * (cell + CELL_TEXT)
+            page.paste(Image.fromarray(np.ascontiguousarray(picture.pixels)), (x, y))
             pen.text((x + cell // 2, y + cell + 2), name, fill="black", anchor="mt")
-    data = io.BytesIO()
-    page.save(data, "PNG")
+    data = encode(np.asarray(page), picture_format(target))
     with replacing(target) as file:
-        file.write(data.getvalue())
+        file.write(data)
     click.echo(f"{target}: {len(gallery)} surfaces")

@@ -3,23 +3,42 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from zeroset.cli.progress import Progress
-from zeroset.cli.source import choose_camera, existing_folder, find_scene, read_size, surface_options
+from zeroset.cli.source import (
+    FormulaCommand,
+    choose_camera,
+    existing_folder,
+    find_scene,
+    picture_path,
+    read_method,
+    read_size,
+    surface_options,
+)
+
+if TYPE_CHECKING:
+    from zeroset.render.image import Image
+    from zeroset.scene.bounds import Bounds
+    from zeroset.scene.scene import Scene
 
 
-@click.command("render")
+@click.command("render", cls=FormulaCommand)
 @surface_options
 @click.option("-o", "--output", default="zeroset.png", show_default=True, help="Picture to write.")
 @click.option("-s", "--size", default="1024", show_default=True, help="Pixels: 800 or 1280x720.")
 @click.option("-t", "--tolerance", type=float, help="World length to which roots are found.")
 @click.option("--eye", metavar="X,Y,Z", help="Where the camera is.")
 @click.option("--target", metavar="X,Y,Z", help="What it looks at.")
-@click.option("--fov", type=float, help="Opening angle in degrees.")
+@click.option("--up", metavar="X,Y,Z", help="What is upwards in the picture.")
+@click.option("--fov", type=float, help="Opening angle in degrees, for perspective.")
+@click.option("--height", type=float, help="World length across the picture, for an orthographic camera.")
 @click.option("--orbit", type=float, default=0.0, help="Turn the camera about z by so many degrees.")
 @click.option("--save-scene", metavar="FILE", help="Write the scene as a .toml file too.")
+@click.option("--save-outputs", metavar="FILE", help="Write depth, normal, status, steps and t as a NumPy .npz file too.")
 def command(
     source: str,
     params: tuple[str, ...],
@@ -31,34 +50,56 @@ def command(
     tolerance: float | None,
     eye: str | None,
     target: str | None,
+    up: str | None,
     fov: float | None,
+    height: float | None,
     orbit: float,
     save_scene: str | None,
+    save_outputs: str | None,
 ) -> None:
     """Draw SOURCE: a formula such as "x^2 + y^2 = z", a gallery name, or a scene file."""
+    import dataclasses
+
     from zeroset.render.render import render
 
-    path = existing_folder(output)
+    path = picture_path(output)
+    for extra in (save_scene, save_outputs):
+        if extra is not None:
+            existing_folder(extra)
     scene = find_scene(source, params, bounds)
-    camera = choose_camera(scene, eye, target, fov, orbit)
+    scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     begin = time.perf_counter()
     with Progress("drawing") as progress:
-        image = render(scene, read_size(size), camera, method, device, tolerance, progress=progress)
+        image = render(scene, read_size(size), None, read_method(method), device, tolerance, progress=progress)
     spent = time.perf_counter() - begin
+    _save(image, scene, path, save_scene, save_outputs)
+    _tell(image, path, spent, scene.surface.fitted)
+
+
+def _save(image: Image, scene: Scene, path: Path, save_scene: str | None, save_outputs: str | None) -> None:
     image.save(path)
     if save_scene is not None:
-        import dataclasses
-
         from zeroset.scene.file import save
 
-        save(dataclasses.replace(scene, camera=camera), save_scene)
+        save(scene, save_scene)
+    if save_outputs is not None:
+        import numpy as np
+
+        from zeroset.atomic import replacing
+        from zeroset.render.image import AOVS
+
+        with replacing(save_outputs) as file:
+            np.savez_compressed(file, **{name: image.aov(name) for name in AOVS})
+
+
+def _tell(image: Image, path: Path, spent: float, bounds: Bounds) -> None:
     width, height = image.size
     notes = f", {image.unresolved} of them unresolved" if image.unresolved else ""
     click.echo(f"{path}: {width}x{height}, {image.hits} pixels of surface{notes}, {spent * 1e3:.0f} ms")
     if not image.hits:
-        click.echo(_why_empty(scene.surface.fitted, image.certified), err=True)
-
-
-def _why_empty(bounds: object, certified: bool) -> str:
-    certain = "certified: " if certified else ""
-    return f"{certain}no ray meets a zero of f inside {bounds}; the picture is empty. Try other --bounds, or another --eye."
+        proof = "certified: " if image.certified else ""
+        click.echo(
+            f"{proof}no ray meets a zero of f inside {bounds}; the picture is empty. "
+            "Try other --bounds, or another --eye.",
+            err=True,
+        )

@@ -2,47 +2,54 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from zeroset.errors import BoundsError, CameraError, ParameterError
+from zeroset.errors import BoundsError, CameraError, ParameterError, ZerosetError
 from zeroset.scene.bounds import Bounds, Box, parse_bounds
 from zeroset.scene.camera import Camera, fit_camera
 from zeroset.scene.scene import Scene
 from zeroset.scene.surface import surface
+
+if TYPE_CHECKING:
+    from zeroset.solve import Method
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 
 def find_scene(source: str, params: tuple[str, ...] = (), bounds: str | None = None) -> Scene:
     """The scene that a user means: a ``.toml`` file, a gallery name, or else a formula."""
-    values = dict(_parameter(text) for text in params)
+    values = dict(map(_parameter, params))
     limits = None if bounds is None else read_bounds(bounds)
     if source.endswith(".toml"):
         from zeroset.scene.file import load
 
         return _changed(load(source), values, limits)
     # A gallery name has only letters, digits and hyphens, and begins with two letters: hardly a formula.
-    if re.fullmatch(r"[a-z]{2,}[a-z0-9]*(-[a-z0-9.]+)*", source) and (named := _named(source)) is not None:
+    if re.fullmatch(r"[a-z]{2,}[a-z0-9]*(-[a-z0-9.]+)*", source) and (named := _named(source, values)) is not None:
         return _changed(named, values, limits)
     return Scene(surface(source, values, limits))
 
 
-def _named(name: str) -> Scene | None:
-    from zeroset.errors import UnknownSurfaceError, nearest_names
+def _named(name: str, values: dict[str, Any]) -> Scene | None:
+    """The gallery's surface; None for a word that may well be a formula (``xyz``, or ``ab-x`` with a value for ab)."""
+    from zeroset.errors import UnknownSurfaceError
+    from zeroset.expr import VARIABLES
     from zeroset.shelf import gallery
 
     try:
         return Scene(gallery[name])
     except UnknownSurfaceError:
-        if "-" in name or nearest_names(name, gallery):
-            raise
-        return None
+        words = re.findall(r"[a-z]+", name)
+        if all(word in values or set(word) <= set(VARIABLES) for word in words):
+            return None
+        raise
 
 
 def _changed(scene: Scene, values: dict[str, Any], limits: Bounds | None) -> Scene:
@@ -85,24 +92,55 @@ def read_triple(text: str, what: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def choose_camera(scene: Scene, eye: str | None, target: str | None, fov: float | None, orbit: float) -> Camera:
+def choose_camera(
+    scene: Scene, eye: str | None, target: str | None, up: str | None, fov: float | None, height: float | None, orbit: float
+) -> Camera:
     """The scene's camera with what the user changed of it."""
+    if fov is not None and height is not None:
+        raise CameraError("a camera has either a fov or a height", hint="fov is for perspective, height for orthographic")
     camera = scene.camera or scene.surface.camera or fit_camera(scene.surface.fitted)
-    if eye is not None:
-        camera = dataclasses.replace(camera, eye=read_triple(eye, "the eye"))
-    if target is not None:
-        camera = dataclasses.replace(camera, target=read_triple(target, "the target"))
-    if fov is not None:
-        camera = dataclasses.replace(camera, fov=fov, height=None)
+    places = {"eye": eye, "target": target, "up": up}
+    changes: dict[str, Any] = {k: read_triple(v, f"the {k}") for k, v in places.items() if v is not None}
+    if fov is not None or height is not None:
+        changes |= {"fov": fov, "height": height}
+    camera = dataclasses.replace(camera, **changes)
     return camera.orbit(orbit) if orbit else camera
 
 
 def read_size(text: str) -> tuple[int, int]:
     """``800`` or ``1280x720``."""
-    found = re.fullmatch(r"(\d{1,6})(?:[x,](\d{1,6}))?", text.strip())
+    found = re.fullmatch(r"(-?\d{1,9})(?:[x,](-?\d{1,9}))?", text.strip(), re.ASCII)
     if not found:
-        raise click.UsageError(f"cannot read the size {text!r}: write 800 or 1280x720")
+        raise ZerosetError(f"cannot read the size {text!r}", hint="write 800 or 1280x720")
     return int(found[1]), int(found[2] or found[1])
+
+
+def read_method(text: str) -> Method:
+    """A ray method, its options after a colon: ``marching-points:test=taylor,steps=200``."""
+    from zeroset.errors import MethodError, did_you_mean
+    from zeroset.solve import resolve_method
+
+    name, _, rest = text.partition(":")
+    plain = resolve_method(name)
+    known = {field.name: getattr(plain, field.name) for field in dataclasses.fields(plain)}
+    options: dict[str, Any] = {}
+    for item in filter(None, rest.split(",")):
+        key, _, value = item.partition("=")
+        if key not in known:
+            hints = (*did_you_mean(key, known), f"its options are {', '.join(known)}")
+            raise MethodError(f"the method {name} has no option {key!r}", hints=hints)
+        options[key] = _option_value(known[key], value)
+    return dataclasses.replace(plain, **options)
+
+
+def _option_value(default: Any, value: str) -> Any:
+    """An option's text as what its default is; the method itself complains of what does not fit."""
+    if isinstance(default, bool):
+        return {"yes": True, "true": True, "no": False, "false": False}.get(value.lower(), value)
+    if isinstance(default, (int, float)):
+        with contextlib.suppress(ValueError):
+            return float(value)
+    return value
 
 
 def surface_options(function: F) -> F:
@@ -111,8 +149,8 @@ def surface_options(function: F) -> F:
         (
             click.argument("source", metavar="FORMULA|NAME|FILE"),
             click.option("-p", "--param", "params", multiple=True, metavar="NAME=VALUE", help="Value of a parameter."),
-            click.option("-b", "--bounds", metavar="R|BOX", help="Ball radius, or x0,y0,z0,x1,y1,z1."),
-            click.option("-m", "--method", default="auto", show_default=True, help="Ray method."),
+            click.option("-b", "--bounds", metavar="R|X0,...,Z1", help="Ball radius, or x0,y0,z0,x1,y1,z1."),
+            click.option("-m", "--method", default="auto", show_default=True, help="Ray method; options after a colon: marching-points:test=taylor,steps=200."),
             click.option("-d", "--device", default="auto", show_default=True, help="Where to run."),
         )
     ):
@@ -120,13 +158,36 @@ def surface_options(function: F) -> F:
     return function
 
 
-def existing_folder(path: str) -> Path:
-    """The path, if its folder is there: found out before a long render rather than after it."""
-    from zeroset.errors import OutputError
+class FormulaCommand(click.Command):
+    """A command whose first argument is a formula, which may begin with a minus sign."""
 
-    target = Path(path)
-    if target.is_dir():
-        raise OutputError(f"cannot write {path!r}: it is a folder", hint="give a file name inside it")
-    if not target.parent.is_dir():
-        raise OutputError(f"cannot write {path!r}: the folder {str(target.parent)!r} does not exist")
-    return target
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take ``-x^2 + y`` for a formula and not for options."""
+        letters = {name[1] for option in self.params for name in option.opts if re.fullmatch(r"-[a-z]", name)}
+        if "--" not in args:
+            formulas = [arg for arg in args if _negative_formula(arg, letters)]
+            if len(formulas) == 1:
+                args = [*(arg for arg in args if arg is not formulas[0]), "--", formulas[0]]
+        return super().parse_args(ctx, args)
+
+
+def _negative_formula(text: str, letters: set[str]) -> bool:
+    """Whether an argument is a formula such as ``-x^2 + y``; ``-4,7,4`` and ``-o`` are none."""
+    if re.match(r"-\s*[a-z]\w+\s*\(", text):
+        return True
+    return bool(re.match(r"-[^-]", text)) and text[1] not in letters and bool(re.search(r"[xyzw(|]", text))
+
+
+def existing_folder(path: str) -> Path:
+    """The path, if a file can be written there: found out before a long render rather than after it."""
+    from zeroset.atomic import check_writable
+
+    return check_writable(path)
+
+
+def picture_path(path: str) -> Path:
+    """The path, if it names a picture format and can be written."""
+    from zeroset.render.image import picture_format
+
+    picture_format(path)
+    return existing_folder(path)

@@ -65,8 +65,9 @@ class _Function:
     def __init__(self, kernel: Kernel, target: Target) -> None:
         self.kernel = kernel
         self.writer = Writer(target, varying_values(kernel))
-        self.memory = Memory(self.writer, kernel.buffers)
-        self.control = Control(self.writer, self.block, _used(kernel))
+        used = _used(kernel)
+        self.memory = Memory(self.writer, kernel.buffers, used)
+        self.control = Control(self.writer, self.block, used)
         self.packet: list[str] = []
         self.handlers = {
             "load": self.memory.load,
@@ -87,8 +88,8 @@ class _Function:
         writer.label("packets")
         writer.line("%packet = phi i32 [ %begin, %entry ], [ %following, %finish ]")
         lanes, steps = f"<{width} x i32>", ", ".join(f"i32 {i}" for i in range(width))
-        writer.line(f"%lanes = add {lanes} {self._everywhere('%packet')}, <{steps}>")
-        writer.mask = writer.from_bits(writer.assign(f"icmp ult {lanes} %lanes, {self._everywhere('%end')}"))
+        writer.line(f"%lanes = add {lanes} {writer.everywhere('%packet')}, <{steps}>")
+        writer.mask = writer.from_bits(writer.assign(f"icmp ult {lanes} %lanes, {writer.everywhere('%end')}"))
         self.block(self.kernel.body, top=True)
         writer.jump("finish")
         writer.label("finish")
@@ -98,11 +99,6 @@ class _Function:
         tail = ["leave:", "  ret void", "}"]
         lines = [*sorted(writer.declarations), *head, *writer.entry, "  br label %packets", *self.packet, *tail]
         return "\n".join(line for line in lines if line) + "\n" + _DRAIN
-
-    def _everywhere(self, number: str) -> str:
-        lanes = f"<{self.writer.width} x i32>"
-        first = self.writer.assign(f"insertelement {lanes} poison, i32 {number}, i64 0")
-        return self.writer.assign(f"shufflevector {lanes} {first}, {lanes} poison, {lanes} zeroinitializer")
 
     def _slot(self, name: str, type_: str, slot: int) -> None:
         place = self.writer.assign(f"getelementptr i64, ptr %args, i64 {slot}")

@@ -19,10 +19,11 @@ _COMBINE = {
 
 
 class Memory:
-    """The buffers of the function being written."""
+    """The buffers of the function being written; ``used`` holds the ids of the values that something reads."""
 
-    def __init__(self, writer: Writer, buffers: tuple[Buffer, ...]) -> None:
+    def __init__(self, writer: Writer, buffers: tuple[Buffer, ...], used: frozenset[int]) -> None:
         self.writer = writer
+        self.used = used
         self.pointers = {buffer.name: f"%buffer{i}" for i, buffer in enumerate(buffers)}
         self.types = {buffer.name: buffer.type for buffer in buffers}
         self.writable = {buffer.name: buffer.writable for buffer in buffers}
@@ -97,7 +98,35 @@ class Memory:
         return None if start is None else self.writer.assign(f"{definition.op} i32 {start}, {self.writer.scalar(b)}")
 
     def atomic(self, instruction: Instruction) -> None:
-        """Write a loop over the active lanes, first lane first, one ``atomicrmw`` each."""
+        """Write an atomic: lanes take their turns in order, first lane first."""
+        if instruction.op == "atomic_add" and not self.writer.is_varying(instruction.operands[0]):
+            self._add_together(instruction)
+        else:
+            self._one_by_one(instruction)
+
+    def _add_together(self, instruction: Instruction) -> None:
+        """All lanes add to one element: add their sum, and give each what was there plus the lanes before it."""
+        writer, width = self.writer, self.writer.width
+        index, value = instruction.operands
+        (result,) = instruction.results
+        lanes = f"<{width} x i32>"
+        added = writer.choose(writer.mask, value.type, writer.vector(value), "zeroinitializer")
+        total = writer.call(f"llvm.vector.reduce.add.v{width}i32", "i32", (lanes, added))
+        place = self._place(instruction.attributes[0], index)
+        was = writer.assign(f"atomicrmw add ptr {place}, i32 {total} monotonic, align 4")
+        if id(result) not in self.used:
+            return
+        upto, step = added, 1
+        while step < width:
+            picks = ", ".join(f"i32 {width if lane < step else lane - step}" for lane in range(width))
+            moved = writer.assign(f"shufflevector {lanes} {upto}, {lanes} zeroinitializer, <{width} x i32> <{picks}>")
+            upto = writer.assign(f"add {lanes} {upto}, {moved}")
+            step *= 2
+        before = writer.assign(f"sub {lanes} {upto}, {added}")
+        writer.define(result, writer.assign(f"add {lanes} {before}, {writer.everywhere(was)}"))
+
+    def _one_by_one(self, instruction: Instruction) -> None:
+        """A loop over the active lanes, one ``atomicrmw`` each."""
         writer, name = self.writer, instruction.attributes[0]
         index, value = instruction.operands
         (result,) = instruction.results

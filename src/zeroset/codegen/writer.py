@@ -150,6 +150,12 @@ class Writer:
             return f"splat (i32 {'-1' if constant == 'true' else '0'})"
         return f"splat ({SCALARS[type_.name]} {constant})"
 
+    def everywhere(self, number: str) -> str:
+        """An i32 in every lane, made here and now."""
+        lanes = f"<{self.width} x i32>"
+        first = self.assign(f"insertelement {lanes} poison, i32 {number}, i64 0")
+        return self.assign(f"shufflevector {lanes} {first}, {lanes} poison, {lanes} zeroinitializer")
+
     def _broadcast(self, type_: Type, text: str, spot: tuple[list[str], int]) -> str:
         lines, place = spot
         scalar, vector = SCALARS[type_.name], self.vectors[type_.name]

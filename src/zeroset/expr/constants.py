@@ -9,20 +9,24 @@ from __future__ import annotations
 import math
 import weakref
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from zeroset.errors import FormulaLimitError
 from zeroset.expr.dag import postorder, rational
 from zeroset.expr.ops import OPS
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from zeroset.expr.balls import Ball
     from zeroset.expr.dag import Expr
 
 __all__ = ["check_constants", "enclose"]
 
 _DIGITS = (50, 100, 200, 400)
-_first: weakref.WeakKeyDictionary[Expr, Ball | bool | None] = weakref.WeakKeyDictionary()
+_known: dict[int, weakref.WeakKeyDictionary[Expr, Ball | bool | None]] = {
+    digits: weakref.WeakKeyDictionary() for digits in _DIGITS
+}
 
 
 def enclose(expr: Expr) -> tuple[float, float]:
@@ -40,6 +44,8 @@ def enclose(expr: Expr) -> tuple[float, float]:
         >>> enclose(PI)
         (3.141592653589793, 3.1415926535897936)
     """
+    if not _is_number(expr):
+        raise TypeError("only a number that depends on nothing can be enclosed")
     value = rational(expr)
     if value is not None:
         return _below(value), -_below(-value)
@@ -51,11 +57,13 @@ def enclose(expr: Expr) -> tuple[float, float]:
     return low, high
 
 
-def check_constants(expr: Expr) -> None:
-    """Raise the error of any constant in a formula that is undefined or out of range."""
-    for part in postorder(expr, lambda item: () if _is_number(item) else item.args):
-        if _is_number(part) and rational(part) != 0:
-            enclose(part)
+def check_constants(parts: Iterable[Expr]) -> None:
+    """Raise the error of any constant among the arguments of some nodes that is undefined or out of range."""
+    for part in parts:
+        if part.symbols:
+            for arg in part.args:
+                if _is_number(arg) and rational(arg) != 0:
+                    enclose(arg)
 
 
 def _is_number(expr: Expr) -> bool:
@@ -64,21 +72,16 @@ def _is_number(expr: Expr) -> bool:
 
 
 def _ball(expr: Expr, digits: int) -> Ball:
-    """The decimal enclosure of a constant; those of the first precision are remembered."""
-    from zeroset.expr.balls import Ball
+    """The decimal enclosure of a constant; each is remembered as long as its node lives."""
     from zeroset.expr.decimals import Decimals
 
     arithmetic = Decimals(digits)
-    known: dict[Expr, Ball | bool | None] | weakref.WeakKeyDictionary[Expr, Ball | bool | None]
-    known = _first if digits == _DIGITS[0] else {}
+    known = _known[digits]
     for part in postorder(expr, lambda item: () if item in known else item.args):
         if part not in known:
             method = getattr(arithmetic, OPS[part.op].method)
             known[part] = method(*(known[arg] for arg in part.args), *part.data)
-    ball = known[expr]
-    if not isinstance(ball, Ball):
-        raise TypeError("a condition has no enclosure")
-    return ball
+    return cast("Ball", known[expr])
 
 
 def _below(value: Fraction) -> float:

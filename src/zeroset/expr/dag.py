@@ -15,14 +15,14 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from zeroset.errors import FormulaError
-from zeroset.expr.facts import CONDITION, NONNEGATIVE, POSITIVE, TOTAL, flags_of
+from zeroset.expr.facts import CONDITION, NONNEGATIVE, POSITIVE, TOTAL, check_kinds, flags_of
 from zeroset.expr.operators import Operators
 from zeroset.expr.ops import OPS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-__all__ = ["PI", "Data", "Expr", "constant", "node", "postorder", "rational"]
+__all__ = ["PI", "Data", "Expr", "constant", "made_so_far", "node", "postorder", "rational"]
 
 Data = tuple[Fraction | int | str, ...]
 Symbol = tuple[str, str]
@@ -144,6 +144,15 @@ class Expr(Operators):
 _Key = tuple[str, tuple[Expr, ...], Data]
 _nodes: weakref.WeakValueDictionary[_Key, Expr] = weakref.WeakValueDictionary()
 _lock = threading.Lock()
+
+
+class _Made(threading.local):
+    """How many nodes a thread has made."""
+
+    count = 0
+
+
+_made = _Made()
 _NO_SYMBOLS: frozenset[Symbol] = frozenset()
 
 
@@ -157,7 +166,7 @@ def node(op: str, args: tuple[Expr, ...] = (), data: Data = ()) -> Expr:
     found = _nodes.get(key)
     if found is not None:
         return found
-    _check_kinds(op, args)
+    check_kinds(op, args)
     made = object.__new__(Expr)
     made.op = op
     made.args = args
@@ -165,8 +174,14 @@ def node(op: str, args: tuple[Expr, ...] = (), data: Data = ()) -> Expr:
     made.symbols = _symbols(op, args, data)
     made.flags = flags_of(op, args, data)
     made._digest = None
+    _made.count += 1
     with _lock:
         return _nodes.setdefault(key, made)
+
+
+def made_so_far() -> int:
+    """How many nodes this thread has made: the measure of work that limits are put on."""
+    return _made.count
 
 
 def constant(value: int | Fraction) -> Expr:
@@ -225,22 +240,6 @@ def _symbols_of_leaf(op: str, data: Data) -> frozenset[Symbol]:
     if op == "element":
         return frozenset({("array", str(data[0])), ("index", str(data[1]))})
     return frozenset({(op, str(data[0]))})
-
-
-def _check_kinds(op: str, args: tuple[Expr, ...]) -> None:
-    """Refuse `(x < 1) + 2` and `if(x, 1, 2)`."""
-    for position, arg in enumerate(args):
-        wants_truth = op in {"and", "or", "not"} or (op == "select" and position == 0)
-        if wants_truth and not arg.is_condition:
-            raise FormulaError(
-                "a number stands where a condition belongs",
-                hints=("compare it with something: x > 0",),
-            )
-        if arg.is_condition and not wants_truth:
-            raise FormulaError(
-                "a condition stands where a number belongs",
-                hints=("make a number of it: if(x < 1, 1, 0)",),
-            )
 
 
 def _hash(part: Expr) -> bytes:

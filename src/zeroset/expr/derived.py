@@ -73,11 +73,18 @@ def chebyshev(order: Expr, x: Expr) -> Expr:
         )
     if n > CHEBYSHEV:
         raise FormulaLimitError(f"the order of T(n, x) is too large: it goes up to {CHEBYSHEV}")
-    return _chebyshev(int(n), x)
+    return _chebyshev(int(n), x, {})
 
 
-def _chebyshev(n: int, x: Expr) -> Expr:
-    """T_n(x); the recursion halves n at least, so it is at most ten deep."""
+def _chebyshev(n: int, x: Expr, known: dict[tuple[int, Expr], Expr]) -> Expr:
+    """T_n(x); the recursion halves n at least, so it is at most ten deep. `known` are those already made."""
+    if (n, x) not in known:
+        known[n, x] = _new_chebyshev(n, x, known)
+    return known[n, x]
+
+
+def _new_chebyshev(n: int, x: Expr, known: dict[tuple[int, Expr], Expr]) -> Expr:
+    """T_n(x) from lower orders."""
     match n:
         case 0:
             return x**0
@@ -91,8 +98,8 @@ def _chebyshev(n: int, x: Expr) -> Expr:
             return x * ((4 * x**2 - constant(5) / 2) ** 2 - constant(5) / 4)
     factor = next((d for d in range(2, n) if n % d == 0), None)
     if factor is not None:
-        return _chebyshev(n // factor, _chebyshev(factor, x))
-    return 2 * _chebyshev(n // 2, x) * _chebyshev(n // 2 + 1, x) - x
+        return _chebyshev(n // factor, _chebyshev(factor, x, known), known)
+    return 2 * _chebyshev(n // 2, x, known) * _chebyshev(n // 2 + 1, x, known) - x
 
 
 DERIVED: dict[str, Derived] = {

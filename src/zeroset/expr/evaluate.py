@@ -105,10 +105,14 @@ class _Evaluation:
     def _sum(self, part: Expr, known: MutableMapping[Expr, Any], indices: frozenset[str]) -> Any:
         """The environment loops; the body is evaluated in a scope of its own."""
         index, *arrays = map(str, part.data)
+        outside = known
+        if index in indices:
+            # The sum's own index hides that of a sum around it.
+            outside = {item: number for item, number in known.items() if ("index", index) not in item.symbols}
 
         def body(elements: Mapping[str, Any]) -> Any:
             own = {node("element", (), (array, index)): number for array, number in elements.items()}
-            return self.value(part.args[0], ChainMap(own, known), indices | {index})
+            return self.value(part.args[0], ChainMap(own, outside), indices | {index})
 
         return self.env.sum(self.system, tuple(arrays), body)
 

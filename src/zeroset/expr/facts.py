@@ -10,6 +10,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from zeroset.errors import FormulaError
 from zeroset.expr.limits import POWER
 from zeroset.expr.ops import OPS
 
@@ -95,3 +96,23 @@ def _sign(op: str, args: Sequence[Expr], data: Data) -> int:
     if sign == "kept":
         return first
     return NONNEGATIVE | first & POSITIVE if sign == "magnitude" else _SIGNS[sign]
+
+
+def check_kinds(op: str, args: Sequence[Expr]) -> None:
+    """Refuse `(x < 1) + 2` and `if(x, 1, 2)`.
+
+    Raises:
+        FormulaError: A truth stands where a number belongs, or the other way round.
+    """
+    for position, arg in enumerate(args):
+        wants_truth = op in {"and", "or", "not"} or (op == "select" and position == 0)
+        if wants_truth and not arg.is_condition:
+            raise FormulaError(
+                "a number stands where a condition belongs",
+                hints=("compare it with something: x > 0",),
+            )
+        if arg.is_condition and not wants_truth:
+            raise FormulaError(
+                "a condition stands where a number belongs",
+                hints=("make a number of it: if(x < 1, 1, 0)",),
+            )

@@ -67,21 +67,28 @@ def compiled() -> Tables:
     with open(_GRAMMAR, encoding="utf-8") as file:
         parser: Any = lark.Lark(file.read(), parser="lalr")
     table = parser.parser.parser._parse_table
-    numbers: dict[Any, int] = {}
+    start = table.start_states["start"]
+    # Lark's numbers change from run to run; here states count in the order in which they are reached.
+    numbers = {start: 0}
+    reached = [start]
     rules: list[tuple[str, int, str]] = []
+    known: dict[Any, int] = {}
     states: list[dict[str, int]] = []
-    for state in sorted(table.states):
-        row = {}
+    for state in reached:
+        row: dict[str, int] = {}
         for symbol, (action, target) in sorted(table.states[state].items(), key=lambda item: str(item[0])):
             if str(action) == "Shift":
-                row[str(symbol)] = int(target)
+                if target not in numbers:
+                    numbers[target] = len(reached)
+                    reached.append(target)
+                row[str(symbol)] = numbers[target]
                 continue
-            if target not in numbers:
-                numbers[target] = len(rules)
-                rules.append((target.origin.name, len(target.expansion), target.alias or ""))
-            row[str(symbol)] = -1 - numbers[target]
+            if target not in known:
+                known[target] = len(rules)
+                rules.append((str(target.origin.name), len(target.expansion), str(target.alias or "")))
+            row[str(symbol)] = -1 - known[target]
         states.append(row)
-    return Tables(table.start_states["start"], table.end_states["start"], states, rules)
+    return Tables(0, numbers[table.end_states["start"]], states, rules)
 
 
 def run(

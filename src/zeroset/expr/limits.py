@@ -13,11 +13,14 @@ from zeroset.errors import FormulaLimitError
 if TYPE_CHECKING:
     from fractions import Fraction
 
-TEXT = 200_000
+TEXT = 100_000
 """Characters in the text of one formula."""
 
 NODES = 100_000
-"""Distinct operations in one formula, after equal parts have been shared."""
+"""Distinct operations in one formula, after equal parts have been shared.
+
+While a text is read those that rewriting takes away again count too, to bound the time.
+"""
 
 NESTING = 1_000
 """Depth of parentheses, absolute values, and function calls in the text of a formula."""
@@ -31,10 +34,10 @@ CHEBYSHEV = 512
 SUMS = 8
 """Depth of sums within sums."""
 
-LITERAL_DIGITS = 1_000
+LITERAL_DIGITS = 400
 """Digits of a number in the text, and the largest power of ten in its exponent."""
 
-RATIONAL_BITS = 8_192
+RATIONAL_BITS = 2_048
 """Bits of numerator or denominator up to which constants are folded exactly."""
 
 POLYNOMIAL_WORK = 300_000

@@ -1,7 +1,7 @@
 """What a name in a formula means, and what to say when it means nothing.
 
 A parameter wins over a constant of the same name; the variables and the functions cannot be renamed. A name
-made of the letters x y z w alone is their product.
+made of the letters x y z w alone is their product (`tokens.py` takes it apart).
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import re
 from typing import TYPE_CHECKING
 
 from zeroset.errors import ParameterError, UnknownNameError, did_you_mean
-from zeroset.expr.build import build
 from zeroset.expr.dag import Expr, node
 from zeroset.expr.derived import CONSTANTS, DERIVED
 from zeroset.expr.ops import FUNCTIONS
@@ -62,7 +61,11 @@ class Names:
 
     def is_value(self, name: str) -> bool:
         """Whether a name stands for a number by itself."""
-        return name in self.params or name in CONSTANTS or not name.strip("xyzw")
+        return name in self.params or name in CONSTANTS or self.is_letters(name)
+
+    def is_letters(self, name: str) -> bool:
+        """Whether a name is a run of variables, such as xy."""
+        return not name.strip("xyzw") and name not in self.params
 
     def becomes_parameter(self, name: str) -> bool:
         """Whether an unknown name is taken for a new parameter."""
@@ -80,12 +83,7 @@ class Names:
             return CONSTANTS[name]
         if name in VARIABLES:
             return variable(name)
-        if not self.is_value(name):
-            raise self._unknown(name, position)
-        product = variable(name[0])
-        for letter in name[1:]:
-            product = build("mul", (product, variable(letter)))
-        return product
+        raise self._unknown(name, position)
 
     def element(self, name: str, index: str, position: int) -> Expr:
         """The node of an array parameter's element.

@@ -10,7 +10,7 @@ from zeroset.expr import limits
 from zeroset.expr.build import build, sum_over
 from zeroset.expr.complaints import unexpected
 from zeroset.expr.constants import enclose
-from zeroset.expr.dag import Expr, constant, rational
+from zeroset.expr.dag import Expr, constant, made_so_far, rational
 from zeroset.expr.derived import DERIVED
 from zeroset.expr.grammar import Token, run, tables
 from zeroset.expr.names import VARIABLES, Names
@@ -46,7 +46,7 @@ def parse(text: str, params: Collection[str] = (), arrays: Collection[str] = (),
 
     Example:
         >>> print(parse("2x(x+y) = a", params=["a"]))
-        2*(x*(x + y)) - a
+        2*x*(x + y) - a
     """
     names = Names(text, params, arrays, open)
     actions = _Actions(names)
@@ -80,12 +80,19 @@ def _finished(expr: Expr, actions: _Actions) -> Expr:
 
 
 class _Actions:
-    """What each alternative of the grammar makes."""
+    """What each alternative of the grammar makes.
+
+    `indices` says where each index was first used, `truth` where the first comparison is, and `elements` lists place,
+    index and array of the elements that no sum has yet taken; `called` remembers what calls made.
+    """
 
     def __init__(self, names: Names) -> None:
         self.names = names
         self.indices: dict[str, int] = {}
+        self.elements: list[tuple[int, str, str]] = []
         self.truth: Token | None = None
+        self.called: dict[tuple[str, tuple[Expr, ...]], Expr] = {}
+        self.start = made_so_far()
 
     def table(self) -> dict[str, Callable[..., object]]:
         """The actions by name."""
@@ -130,6 +137,7 @@ class _Actions:
 
     def binary(self, left: Expr, sign: Token, right: Expr) -> Expr:
         """An operator between two values."""
+        limits.check_nodes(made_so_far() - self.start)
         result = build(_BINARY[sign.kind], (left, right))
         return result if result.is_total else _defined(result)
 
@@ -138,8 +146,15 @@ class _Actions:
         return build("pow", (base, constant(_whole(token.text.translate(_DIGITS)))))
 
     def call(self, function: Token, left: Token, values: list[Expr], right: Token) -> Expr:
-        """A function and its arguments."""
-        name = function.text
+        """A function and its arguments; the same call again is the same node again."""
+        limits.check_nodes(made_so_far() - self.start)
+        key = function.text, tuple(values)
+        if key not in self.called:
+            self.called[key] = self.applied(*key)
+        return self.called[key]
+
+    def applied(self, name: str, values: tuple[Expr, ...]) -> Expr:
+        """A function on its arguments."""
         row = FUNCTIONS.get(name)
         op = row.name if row else ""
         arity = row.arity if row else DERIVED[name].arity
@@ -150,11 +165,12 @@ class _Actions:
             return result
         if len(values) != arity:
             raise _wrong_count(name, arity, len(values), op in _NARY)
-        return _defined(build(op, tuple(values)) if op else DERIVED[name].make(*values))
+        return _defined(build(op, values) if op else DERIVED[name].make(*values))
 
     def element(self, array: Token, left: Token, index: Token, right: Token) -> Expr:
         """`r[i]`."""
         self.indices.setdefault(index.text, index.position)
+        self.elements.append((array.position, index.text, array.text))
         return self.names.element(array.text, index.text, array.position)
 
     def summed(self, word: Token, left: Token, index: Token, comma: Token, body: Expr, right: Token) -> Expr:
@@ -166,7 +182,16 @@ class _Actions:
                 position=index.position,
                 hints=("name the index i",),
             )
-        return sum_over(name, body)
+        arrays = set()
+        waiting = []
+        while self.elements and self.elements[-1][0] > word.position:
+            element = self.elements.pop()
+            if element[1] == name:
+                arrays.add(element[2])
+            else:
+                waiting.append(element)
+        self.elements.extend(reversed(waiting))
+        return sum_over(name, body, arrays)
 
 
 def _appended(values: list[Expr], comma: Token, value: Expr) -> list[Expr]:

@@ -76,8 +76,8 @@ def div(a: Expr, b: Expr) -> Expr:
             raise FormulaError("division by zero", hints=("nothing can be divided by zero",))
         return mul(constant(1 / divisor), a)
     value = rational(a)
-    if value == 0 and b.is_total and b.is_positive:
-        return ZERO
+    if value == 0:
+        return ZERO if b.is_total and b.is_positive else _scale(value, div(ONE, b))
     if a is b and b.is_total and b.is_positive:
         return ONE
     if a.op == "mul" and a.args[0].is_constant and not a.is_constant:
@@ -85,8 +85,8 @@ def div(a: Expr, b: Expr) -> Expr:
     (over, top), (under, bottom) = scaled(a), scaled(b)
     if value is not None:
         over, top = value, ONE
-    factor = over / under
-    if not small(factor):
+    factor = over / under if under else None
+    if factor is None or not small(factor):
         return node("div", (a, b))
     if top is ONE:
         return _signed_quotient(factor, bottom)

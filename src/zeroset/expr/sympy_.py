@@ -139,6 +139,9 @@ def _arguments(item: Any) -> tuple[Any, ...]:
     name = _name(item)
     if name == "Piecewise":
         return tuple(part for pair in item.args for part in pair.args)
+    if name == "Add" and item.args[0].is_Number:
+        # SymPy puts the number first; people read it last.
+        return (*item.args[1:], item.args[0])
     return tuple(item.args) if name in _SPECIAL or name in DERIVED or name in _rows() else ()
 
 

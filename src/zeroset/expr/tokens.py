@@ -90,12 +90,23 @@ class _Reader:
                 self._check_operand(token)
             self._bracket(token)
             self.before = token
-            yield token
+            yield from self._letters(token)
         if self.before.kind not in _ENDS:
             raise missing_value(self.text, self.before, Token(END, "", len(self.text.rstrip())))
         if self.open:
             raise unclosed(self.text, self.open[-1])
         yield Token(END, "", length)
+
+    def _letters(self, token: Token) -> Iterator[Token]:
+        """A name of variables' letters is their product, letter by letter: xy^2 is x*y^2."""
+        name = token.text
+        if token.kind != "NAME" or len(name) == 1 or not self.names.is_letters(name):
+            yield token
+            return
+        for offset, letter in enumerate(name):
+            if offset:
+                yield Token("JUX", "", token.position + offset)
+            yield Token("NAME", letter, token.position + offset)
 
     def _classified(self, match: re.Match[str]) -> Token:
         """The token with its kind as it depends on the left neighbour."""

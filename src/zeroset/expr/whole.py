@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from zeroset.errors import FormulaError
 from zeroset.expr.build import shared
 from zeroset.expr.constants import check_constants
+from zeroset.expr.dag import postorder
 from zeroset.expr.limits import check_nodes
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ def whole(expr: Expr) -> Expr:
             "the formula depends on none of the variables x, y, z, w, so it is the same number everywhere",
             hints=("try x^2 + y^2 + z^2 = 1",),
         )
-    check_nodes(expr.size)
-    check_constants(expr)
-    return shared(expr)
+    parts = list(postorder(expr))
+    check_nodes(len(parts))
+    check_constants(parts)
+    return shared(expr, parts)

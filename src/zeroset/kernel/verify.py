@@ -13,7 +13,7 @@ from zeroset.errors import KernelError
 from zeroset.kernel.build import Kernel
 from zeroset.kernel.ops import OPS, result_type
 from zeroset.kernel.types import BOOL, TYPES, U32, Type
-from zeroset.kernel.value import Block, Instruction, Value
+from zeroset.kernel.value import Block, Instruction
 
 
 class _Verifier:
@@ -29,23 +29,21 @@ class _Verifier:
         where = f" in {instruction.op}" if instruction is not None else ""
         raise KernelError(f"kernel {self.kernel.name} is not legal{where}: {why}")
 
-    def uses(self, instruction: Instruction | None, values: tuple[Value, ...]) -> None:
-        defined = self.defined
-        for value in values:
-            if id(value) not in defined:
-                self.fail(instruction, "an operand is used where it is not defined")
-
     def block(self, block: Block, expected: tuple[Type, ...]) -> None:
         """Check a block whose values go out of scope at its end."""
         inside = [id(v) for v in block.parameters]
         self.defined.update(inside)
+        defined = self.defined
         for instruction in block.instructions:
-            self.uses(instruction, instruction.operands)
+            for operand in instruction.operands:
+                if id(operand) not in defined:
+                    self.fail(instruction, "an operand is used where it is not defined")
             self.instruction(instruction)
-            results = [id(v) for v in instruction.results]
-            self.defined.update(results)
-            inside += results
-        self.uses(None, block.yields)
+            for result in instruction.results:
+                defined.add(id(result))
+                inside.append(id(result))
+        if any(id(v) not in defined for v in block.yields):
+            self.fail(None, "a block yields a value that is not defined in it")
         if tuple(v.type for v in block.yields) != expected:
             self.fail(None, f"a block yields {[str(v.type) for v in block.yields]}, not {[str(t) for t in expected]}")
         self.defined.difference_update(inside)

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.errors import ArrayShapeError
+from zeroset.errors import ArrayShapeError, ParameterError
 from zeroset.kernel.types import F32
-from zeroset.render.render import default_tolerance
+from zeroset.render.render import world_tolerance
 from zeroset.render.tracer import Tracer
 from zeroset.render.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
@@ -71,6 +71,7 @@ def cast(
 
     Raises:
         ArrayShapeError: wrong shapes, non-finite numbers, or a direction of length 0.
+        ParameterError: a tolerance, t_min or t_max that cannot be used.
         MethodError: the method cannot treat this surface.
 
     Example:
@@ -86,20 +87,25 @@ def cast(
     target = get_device(device)
     starts, ways = _rays(origins, directions)
     bounds = shown.fitted
-    if tolerance is None:
-        tolerance = default_tolerance(bounds)
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise ArrayShapeError(f"the tolerance must be positive and finite, not {tolerance!r}")
-    if math.isnan(t_min) or math.isnan(t_max) or t_min == math.inf:
-        raise ArrayShapeError(f"t_min and t_max must be numbers with t_min finite, not {t_min!r} and {t_max!r}")
-    uniforms = bounds_uniforms(bounds) | parameter_uniforms(shown, chosen) | {"tolerance": tolerance}
-    uniforms |= {"near": max(t_min, -FARTHEST), "far": max(min(t_max, FARTHEST), -FARTHEST)}
+    uniforms = bounds_uniforms(bounds) | parameter_uniforms(shown, chosen)
+    uniforms |= {"tolerance": world_tolerance(tolerance, bounds), "near": _end(t_min, "t_min"), "far": _end(t_max, "t_max")}
     tracer = Tracer(shown, chosen, target, pixels=False)
     buffers = tracer.buffers(len(starts), 0) | _ray_buffers(target, starts, ways)
     bound = tracer.begin(shown, uniforms, buffers, 0)
     tracer.first_look(uniforms, bound, 0, len(starts))
     tracer.second_look(shown, uniforms, bound)
     return _hits(target, buffers, chosen.certified)
+
+
+def _end(t: float, what: str) -> float:
+    """An end of the rays as kernels take it; infinity becomes ``FARTHEST``."""
+    try:
+        value = float(t)
+    except (TypeError, ValueError, OverflowError):
+        raise ParameterError(f"{what} must be a number, not {t!r}") from None
+    if math.isnan(value):
+        raise ParameterError(f"{what} must be a number, not nan")
+    return min(max(value, -FARTHEST), FARTHEST)
 
 
 def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:

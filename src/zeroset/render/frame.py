@@ -22,7 +22,7 @@ from zeroset.render.gbuffer import FIELDS
 from zeroset.render.layout import TILE, Layout
 from zeroset.render.shading import shade_kernel
 from zeroset.render.tracer import Tracer
-from zeroset.runtime import Device
+from zeroset.runtime import Device, Program
 from zeroset.scene.clip import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
@@ -73,13 +73,17 @@ class Frame:
         self.device = device
         self.lock = threading.Lock()
         self._tracer = Tracer(surface, method, device, pixels=True)
-        self._shade = device.compile_cached(f"shade {lights}", lambda: shade_kernel(lights))
+        self._lights = lights
+        self._tracer.compile(self._shader)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
         self._rgba = device.allocate(U32, layout.width * layout.height)
         self._shown: weakref.ref[GBuffer] | None = None
 
+    def _shader(self) -> Program:
+        return self.device.compile_cached(f"shade {self._lights}", lambda: shade_kernel(self._lights))
+
     def draw(
-        self, surface: Surface, uniforms: Mapping[str, float], progress: Progress | None = None
+        self, surface: Surface, uniforms: Mapping[str, float], thin: bool, progress: Progress | None = None
     ) -> tuple[npt.NDArray[np.uint8], GBuffer]:
         """Run the passes; gives the picture, (height, width, 4), and the G-buffer."""
         shown = self._shown() if self._shown is not None else None
@@ -93,7 +97,9 @@ class Frame:
                 progress(first / lanes)
             self._tracer.first_look(uniforms, bound, first, min(part, lanes - first))
         self._tracer.second_look(surface, uniforms, bound)
-        self._shade.run(lanes, uniforms, {**bound, "rgba": self._rgba})
+        if thin:
+            self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
+        self._shader().run(lanes, uniforms, {**bound, "rgba": self._rgba})
         arrays = {name: self.device.read(self._buffers[name]) for name in FIELDS}
         outputs = GBuffer(self.layout, arrays)
         self._shown = weakref.ref(outputs)

@@ -16,7 +16,11 @@ FIELDS = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32
 """The G-buffer's arrays, one element a ray."""
 SECOND = {"second_lane": U32, "second_clear": F32}
 """Rays left unresolved: which, and from where on."""
-COUNTER = "second_count"
+THIN = {"block_missed": U32, "thin_block": U32}
+"""One element for each block of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and the list
+of those blocks that may hold something thinner than a pixel."""
+COUNTERS = "counters"
+"""How long the lists are: the second look's, the thin parts'."""
 
 
 def gradient_at(lowered: Lowered, point: Sequence[Value]) -> tuple[Value, Value, Value]:
@@ -24,7 +28,7 @@ def gradient_at(lowered: Lowered, point: Sequence[Value]) -> tuple[Value, Value,
     real = RealSystem(FORMAT32 if lowered.type == F32 else FORMAT64)
     dual = DualSystem(real, 3)
     f = lowered.evaluate(dual, *(dual.variable(real.exact(p), i) for i, p in enumerate(point)))
-    g = [lift(d.value, lowered.type) for d in f.gradient]
+    g = [lift(d.value, lowered.type) for d in map(f.derivative, range(3))]
     # Scale by the largest component first: squares of large or small gradients would overflow or vanish.
     largest = abs(g[0]).maximum(abs(g[1])).maximum(abs(g[2]))
     usable = (largest > 1e-30) & (largest < 1e30)
@@ -56,11 +60,17 @@ def write(builder: KernelBuilder, lowered: Lowered, lane: Value, ray: Ray, answe
 def ask_second_look(builder: KernelBuilder, lane: Value, answer: Answer) -> None:
     """Put an unresolved ray on the list, in no particular order."""
     lanes, clear = (builder.buffer(name, type_, writable=True) for name, type_ in SECOND.items())
-    counter = builder.buffer(COUNTER, U32, writable=True)
+    counters = builder.buffer(COUNTERS, U32, writable=True)
 
     def append() -> None:
-        slot = atomic("add", counter, 0, 1)
+        slot = atomic("add", counters, 0, 1)
         store(lanes, slot, lane)
         store(clear, slot, answer.clear.convert(F32))
 
     if_(answer.status.eq(UNRESOLVED), append)
+
+
+def ask_for_thin(builder: KernelBuilder, lane: Value, missed: Value) -> None:
+    """Mark the block of a pixel whose ray missed; several lanes may store the same 1."""
+    marks = builder.buffer("block_missed", U32, writable=True)
+    if_(missed, lambda: store(marks, lane >> 4, 1))

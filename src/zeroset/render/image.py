@@ -20,6 +20,53 @@ from zeroset.solve.problem import MISS, UNRESOLVED
 AOVS = ("depth", "normal", "status", "steps", "t")
 
 
+FORMATS = {
+    ".png": "PNG",
+    ".jpg": "JPEG",
+    ".jpeg": "JPEG",
+    ".webp": "WEBP",
+    ".tif": "TIFF",
+    ".tiff": "TIFF",
+    ".bmp": "BMP",
+    ".ppm": "PPM",
+}
+"""Picture formats by suffix, as Pillow calls them."""
+
+
+def picture_format(path: str | os.PathLike[str]) -> str:
+    """The picture format that a file name asks for; raises ``OutputError`` where it asks for none."""
+    suffix = Path(path).suffix
+    kind = FORMATS.get(suffix.lower())
+    if kind is None:
+        what = f"the suffix {suffix!r}" if suffix else "a file name without a suffix"
+        raise OutputError(
+            f"cannot tell a picture format from {what} in {os.fspath(path)!r}", hint=f"use {', '.join(FORMATS)}"
+        )
+    return kind
+
+
+def encode(pixels: npt.NDArray[np.uint8], kind: str) -> bytes:
+    """The bytes of a picture file.
+
+    Args:
+        pixels: (height, width, 3), sRGB.
+        kind: a format as ``picture_format`` gives it.
+
+    Raises:
+        OutputError: the format cannot hold a picture of this size.
+    """
+    from PIL import Image as Pillow
+
+    # Level 1 is four times faster than the default and the files are hardly larger.
+    options = {"PNG": {"compress_level": 1}, "JPEG": {"quality": 92}, "WEBP": {"quality": 92}}
+    out = io.BytesIO()
+    try:
+        Pillow.fromarray(np.ascontiguousarray(pixels)).save(out, kind, **options.get(kind, {}))
+    except (ValueError, OSError) as error:
+        raise OutputError(f"cannot write this picture as {kind}: {error}", hint="use .png") from None
+    return out.getvalue()
+
+
 class Image:
     """An RGB picture with the frame's G-buffer behind it.
 
@@ -79,36 +126,19 @@ class Image:
 
     def png(self) -> bytes:
         """The picture as a PNG file's bytes."""
-        from PIL import Image as Pillow
-
-        out = io.BytesIO()
-        # Level 1 is four times faster than the default and the files are hardly larger.
-        Pillow.fromarray(np.ascontiguousarray(self.pixels)).save(out, "PNG", compress_level=1)
-        return out.getvalue()
+        return encode(self.pixels, "PNG")
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the picture, in the format of the suffix (.png, .jpg, .webp, .tif, .bmp ...), whole or not at all."""
+        """Write the picture, in the format of the suffix (.png, .jpg, .webp, .tif, .bmp), whole or not at all.
+
+        Raises:
+            OutputError: the suffix names no picture format, or the file cannot be written.
+        """
         target = Path(path)
-        suffix = target.suffix.lower()
-        if suffix == ".png":
-            data = self.png()
-        else:
-            data = self._encoded(target, suffix)
+        data = encode(self.pixels, picture_format(target))
         with replacing(target) as file:
             file.write(data)
         return target
-
-    def _encoded(self, target: Path, suffix: str) -> bytes:
-        from PIL import Image as Pillow
-
-        Pillow.init()
-        kind = Pillow.EXTENSION.get(suffix)
-        if kind is None or kind not in Pillow.SAVE:
-            what = f"the suffix {suffix!r}" if suffix else "a file name without a suffix"
-            raise OutputError(f"cannot tell a picture format from {what} in {str(target)!r}", hint="use .png, .jpg, .webp or .tif")
-        out = io.BytesIO()
-        Pillow.fromarray(np.ascontiguousarray(self.pixels)).save(out, kind)
-        return out.getvalue()
 
     def _repr_png_(self) -> bytes:
         return self.png()

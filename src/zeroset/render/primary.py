@@ -7,19 +7,18 @@ alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
 
-from zeroset.arith import F32 as FORMAT
-from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load, store
-from zeroset.render.gbuffer import SECOND, ask_second_look, write
+from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, load, store
+from zeroset.render.gbuffer import SECOND, ask_for_thin, ask_second_look, write
 from zeroset.render.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
-from zeroset.render.view import beam_rays, pixel_ray
-from zeroset.scene.clip import clip, outside
+from zeroset.render.view import frame_patch, pixel_ray
+from zeroset.scene.clip import clip
 from zeroset.solve.beam import trace_beam
 from zeroset.solve.field import Field, Lowered, Ray
 from zeroset.solve.method import Method
-from zeroset.solve.problem import UNRESOLVED, Problem
+from zeroset.solve.problem import MISS, Problem
 from zeroset.solve.search import search
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
@@ -53,7 +52,8 @@ def _problem(builder: KernelBuilder, lowered: Lowered, kind: str, ray: Ray, near
     return Problem(lowered, ray, t0, t1, tolerance, (t1 - t0) * 0.125 if step is None else step)
 
 
-def _range(builder: KernelBuilder) -> tuple[Value, Value]:
+def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
+    """The stretch of t that holds the bounds for every ray of the frame."""
     return builder.uniform("near", F32), builder.uniform("far", F32)
 
 
@@ -63,7 +63,7 @@ def trace_kernel(field: Field, method: Method, kind: str, make_ray: RayMaker, be
         lane = builder.index() + builder.uniform("first", U32)
         lowered = Lowered(field, builder, offset=method.offset != 0.0)
         ray = make_ray(builder, lane)
-        near, far = _range(builder)
+        near, far = t_range(builder)
         step = None
         if beams:
             tile = tile_of(lane)
@@ -73,6 +73,8 @@ def trace_kernel(field: Field, method: Method, kind: str, make_ray: RayMaker, be
         write(builder, lowered, lane, ray, answer)
         if second:
             ask_second_look(builder, lane, answer)
+        if beams:
+            ask_for_thin(builder, lane, answer.status.eq(MISS) & (near < EMPTY_TILE))
     return builder.kernel
 
 
@@ -83,7 +85,7 @@ def second_kernel(field: Field, offset: bool, kind: str, make_ray: RayMaker) -> 
         lane, clear = (load(builder.buffer(name, type_), place) for name, type_ in SECOND.items())
         lowered = Lowered(field, builder, F64, offset)
         ray = make_ray(builder, lane)
-        near, far = _range(builder)
+        near, far = t_range(builder)
         rough = _problem(builder, lowered, kind, ray, near, far, None)
         exact = Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))
         # A little earlier than where the first look got stuck, to learn the sign that f has there.
@@ -91,8 +93,9 @@ def second_kernel(field: Field, offset: bool, kind: str, make_ray: RayMaker) -> 
         start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
         problem = Problem(lowered, exact, start, end, tolerance, tolerance * 4.0)
         answer = search(problem, automatic_system(field, problem.fmt), Striding())
-        # Still unresolved: what the first look wrote stands.
-        if_(answer.status.ne(UNRESOLVED), lambda: write(builder, lowered, lane, exact, answer))
+        # Even where it stays unresolved, f64 comes closer to a double root than f32 could see.
+        spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
+        write(builder, lowered, lane, exact, replace(answer, steps=spent))
     return builder.kernel
 
 
@@ -101,17 +104,10 @@ def beam_kernel(field: Field, offset: bool, kind: str) -> Kernel:
     with KernelBuilder("beams") as builder:
         lane = builder.index()
         lowered = Lowered(field, builder, offset=offset)
-        system = automatic_system(field, FORMAT, symbols=3)
-        u, v = tile_coordinates(builder, lane)
         # Half a tile, and a pixel's rounding more.
         half = builder.uniform("pixel", F32) * (0.5 * TILE + 0.01)
-        origin, direction = beam_rays(builder, system, system.symbol(0, u, half), system.symbol(1, v, half))
-
-        def beyond(point: Sequence[Any]) -> Value:
-            return outside(builder, kind, system, point)
-
-        near, far = _range(builder)
-        beam = trace_beam(lowered, system, origin, direction, near, far, builder.uniform("finest", F32), beyond)
+        patch = frame_patch(builder, lowered, kind, *tile_coordinates(builder, lane), half)
+        beam = trace_beam(patch, *t_range(builder), builder.uniform("finest", F32))
         store(builder.buffer("tile_start", F32, writable=True), lane, beam.empty.select(EMPTY_TILE, beam.start))
         store(builder.buffer("tile_step", F32, writable=True), lane, beam.step)
     return builder.kernel

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import math
+import operator
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from zeroset.errors import ZerosetError
+from zeroset.errors import ParameterError, ZerosetError
 from zeroset.render.frame import Progress, frame_for
 from zeroset.render.image import Image
 from zeroset.render.layout import TILE, Layout
@@ -15,7 +16,7 @@ from zeroset.render.shading import shading_uniforms
 from zeroset.render.values import parameter_uniforms
 from zeroset.render.view import camera_uniforms
 from zeroset.runtime import Device, get_device
-from zeroset.scene.bounds import Bounds
+from zeroset.scene.bounds import SMALLEST, Bounds, number
 from zeroset.scene.camera import Camera, Rays, parse_camera
 from zeroset.scene.clip import bounds_uniforms
 from zeroset.scene.light import Color, Light, Material
@@ -25,6 +26,8 @@ from zeroset.solve import Method, resolve_method
 
 LARGEST = 16384
 """Pixels along a side."""
+MOST_PIXELS = 1 << 26
+"""Pixels in all: 48 bytes of memory each."""
 
 
 def default_tolerance(bounds: Bounds) -> float:
@@ -42,6 +45,7 @@ def render(
     material: Material | None = None,
     lights: Sequence[Light] | None = None,
     background: Color | None = None,
+    thin: bool = True,
     progress: Progress | None = None,
 ) -> Image:
     """Draw a surface.
@@ -56,6 +60,8 @@ def render(
         material: colours and reflectance.
         lights: where the light comes from; None takes two headlights.
         background: linear RGB.
+        thin: also draw what is thinner than a pixel and lies between the rays, down to lines and points without any
+            thickness, as UNRESOLVED; certified methods only.
         progress: called now and then with the share that is done, from 0 to 1.
 
     Returns:
@@ -71,38 +77,47 @@ def render(
         ((64, 64), True)
     """
     scene = as_scene(surface)
-    shown = scene.surface
+    scene = replace(
+        scene,
+        material=scene.material if material is None else material,
+        lights=scene.lights if lights is None else tuple(lights),
+        background=scene.background if background is None else background,
+    )
+    shown, lit = scene.surface, scene.lights
     layout = _layout(size)
     chosen = resolve_method(method)
     chosen.check(shown.field)
     target = get_device(device)
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
-    lit = tuple(scene.lights if lights is None else lights)
     frame = frame_for(shown, chosen, len(lit), layout, target)
     rays = view.rays(layout.width, layout.height)
-    uniforms = frame_uniforms(shown, chosen, rays, layout, _tolerance(tolerance, shown.fitted))
-    uniforms |= shading_uniforms(material or scene.material, lit, background or scene.background, rays)
+    uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
+    uniforms |= shading_uniforms(scene.material, lit, scene.background, rays)
     with frame.lock:
-        picture, outputs = frame.draw(shown, uniforms, progress)
+        picture, outputs = frame.draw(shown, uniforms, thin, progress)
     return Image(picture, outputs, chosen.certified)
 
 
 def _layout(size: tuple[int, int] | int) -> Layout:
     try:
-        width, height = (size, size) if isinstance(size, (int, np.integer)) else (int(v) for v in size)
+        width, height = (operator.index(v) for v in (size if isinstance(size, (tuple, list)) else (size, size)))
     except (TypeError, ValueError):
-        raise ZerosetError(f"the size must be width and height in pixels, not {size!r}") from None
+        raise ZerosetError(f"the size must be width and height in whole pixels, not {size!r}") from None
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise ZerosetError(f"the size must be from 1 to {LARGEST} pixels a side, not {width}x{height}")
-    return Layout(int(width), int(height))
+    if width * height > MOST_PIXELS:
+        raise ZerosetError(f"{width}x{height} are more than {MOST_PIXELS:,} pixels", hint="8192x8192 is the largest square")
+    return Layout(width, height)
 
 
-def _tolerance(value: float | None, bounds: Bounds) -> float:
+def world_tolerance(value: float | None, bounds: Bounds) -> float:
+    """The tolerance that was asked for, or the default; raises ``ParameterError`` for one that is no length."""
     if value is None:
         return default_tolerance(bounds)
-    if not (math.isfinite(value) and value > 0):
-        raise ZerosetError(f"the tolerance must be positive and finite, not {value!r}")
-    return float(value)
+    length = number(value, "the tolerance", ParameterError)
+    if not SMALLEST <= length:
+        raise ParameterError(f"the tolerance must be at least {SMALLEST:g}, not {value!r}")
+    return length
 
 
 def frame_uniforms(surface: Surface, method: Method, rays: Rays, layout: Layout, tolerance: float) -> dict[str, float]:

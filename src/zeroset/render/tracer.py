@@ -1,75 +1,118 @@
-"""Tracing as a plan of passes: beams, first look, second look; the same for a frame's pixels and a caller's rays."""
+"""Tracing as a plan of passes: beams, first look, second look, thin parts; for a frame's pixels and a caller's rays.
+
+Each pass is a kernel over named buffers. The later ones run on lists that the first look makes, mostly short; their
+kernels are compiled when a list is not empty for the first time.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 
+from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.render.gbuffer import COUNTER, FIELDS, SECOND
+from zeroset.render.gbuffer import COUNTERS, FIELDS, SECOND, THIN
+from zeroset.render.layout import TILE
 from zeroset.render.primary import beam_kernel, camera_ray, given_ray, second_kernel, trace_kernel
+from zeroset.render.thin import BLOCK, thin_kernel
 from zeroset.render.values import array_buffers, parameter_uniforms
 from zeroset.runtime import Device, Program
 from zeroset.scene.clip import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
+Buffers = Mapping[str, Any]
+
 
 class Tracer:
-    """The programs of one structure (formula, method, kind of bounds), made when they are first needed."""
+    """The programs of one structure (formula, method, kind of bounds).
+
+    Attributes:
+        certified: whether the method proves its answers; only then are there beams, second looks and thin parts.
+        beams: whether tiles of pixels share beams.
+    """
 
     def __init__(self, surface: Surface, method: Method, device: Device, pixels: bool) -> None:
-        self._field = surface.field
         self._method = method
-        self._kind = bounds_kind(surface.fitted)
         self._device = device
-        self._make_ray = camera_ray if pixels else given_ray
+        self.certified = method.certified
         self.beams = pixels and method.certified
-        self._second_look = method.certified
-        self._key = f"{surface.field.digest} {method.structure()} {self._kind} {pixels}"
-        field, kind, offset, make_ray = self._field, self._kind, method.offset != 0.0, self._make_ray
-        self._beam: Program | None = None
+        self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.fitted)} {pixels}"
+        self._builders = self._kernels(surface, pixels)
+        self._programs: dict[str, Program] = {}
+
+    def _kernels(self, surface: Surface, pixels: bool) -> dict[str, Callable[[], Kernel]]:
+        field, kind, method = surface.field, bounds_kind(surface.fitted), self._method
+        offset, make_ray = method.offset != 0.0, camera_ray if pixels else given_ray
+        made: dict[str, Callable[[], Kernel]] = {
+            "first": lambda: trace_kernel(field, method, kind, make_ray, self.beams, self.certified)
+        }
+        if self.certified:
+            made["second"] = lambda: second_kernel(field, offset, kind, make_ray)
         if self.beams:
-            self._beam = device.compile_cached(f"beams {self._key}", lambda: beam_kernel(field, offset, kind))
-        self._first = device.compile_cached(
-            f"first {self._key}",
-            lambda: trace_kernel(field, method, kind, make_ray, self.beams, self._second_look),
-        )
-        self._second: Program | None = None
+            made["beams"] = lambda: beam_kernel(field, offset, kind)
+            made["thin"] = lambda: thin_kernel(field, offset, kind)
+        return made
+
+    def kernel(self, name: str) -> Kernel:
+        """The kernel of one pass as it is traced, for those who want to look at it."""
+        return self._builders[name]()
+
+    def program(self, name: str) -> Program:
+        """The program of one pass, compiled on first use."""
+        known = self._programs.get(name)
+        if known is None:
+            known = self._device.compile_cached(f"{name} {self._key}", self._builders[name])
+            self._programs[name] = known
+        return known
+
+    def compile(self, *others: Callable[[], object]) -> None:
+        """Compile all passes, and what else is needed, side by side: compilers run outside Python's lock."""
+        tasks = [*(lambda name=name: self.program(name) for name in self._builders), *others]
+        with ThreadPoolExecutor(len(tasks)) as pool:
+            for done in [pool.submit(task) for task in tasks]:
+                done.result()
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles."""
-        wanted = FIELDS | (SECOND if self._second_look else {})
+        wanted = FIELDS | (SECOND if self.certified else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
-        made[COUNTER] = self._device.allocate(U32, 1)
+        made[COUNTERS] = self._device.allocate(U32, 2)
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
+            made |= {name: self._device.allocate(type_, rays // BLOCK) for name, type_ in THIN.items()}
         return made
 
-    def begin(self, surface: Surface, uniforms: Mapping[str, float], buffers: Mapping[str, Any], tiles: int) -> Mapping[str, Any]:
-        """Start a frame: beams over all tiles, an empty list. Gives the buffers with the array parameters."""
+    def begin(self, surface: Surface, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
+        """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters."""
         bound = {**buffers, **array_buffers(surface, self._device)} if surface.arrays else buffers
-        self._device.write(buffers[COUNTER], np.zeros(1, np.uint32))
-        if self._beam is not None:
-            self._beam.run(tiles, uniforms, bound)
+        self._device.write(buffers[COUNTERS], np.zeros(2, np.uint32))
+        if self.beams:
+            self._device.write(buffers["block_missed"], np.zeros(tiles * TILE * TILE // BLOCK, np.uint32))
+            self.program("beams").run(tiles, uniforms, bound)
         return bound
 
-    def first_look(self, uniforms: Mapping[str, float], bound: Mapping[str, Any], first: int, count: int) -> None:
+    def first_look(self, uniforms: Mapping[str, float], bound: Buffers, first: int, count: int) -> None:
         """Trace a run of rays."""
-        self._first.run(count, {**uniforms, "first": first}, bound)
+        self.program("first").run(count, {**uniforms, "first": first}, bound)
 
-    def second_look(self, surface: Surface, uniforms: Mapping[str, float], bound: Mapping[str, Any]) -> None:
-        """Trace what is on the list again, in f64."""
-        count = int(self._device.read(bound[COUNTER])[0]) if self._second_look else 0
-        if not count:
+    def second_look(self, surface: Surface, uniforms: Mapping[str, float], bound: Buffers) -> None:
+        """Trace the rays that the first look left unresolved again, in f64."""
+        count = int(self._device.read(bound[COUNTERS])[0]) if self.certified else 0
+        if count:
+            exact = {**uniforms, **parameter_uniforms(surface, self._method, F64)}
+            arrays = array_buffers(surface, self._device, F64) if surface.arrays else {}
+            self.program("second").run(count, exact, {**bound, **arrays})
+
+    def thin_parts(self, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
+        """Draw what lies between the rays: first by blocks, then by the pixels of those that may hold something."""
+        if not self.beams:
             return
-        if self._second is None:
-            field, kind, offset, make_ray = self._field, self._kind, self._method.offset != 0.0, self._make_ray
-            self._second = self._device.compile_cached(
-                f"second {self._key}", lambda: second_kernel(field, offset, kind, make_ray)
-            )
-        exact = {**uniforms, **parameter_uniforms(surface, self._method, F64)}
-        arrays = array_buffers(surface, self._device, F64) if surface.arrays else {}
-        self._second.run(count, exact, {**bound, **arrays})
+        program = self.program("thin")
+        program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "fine": 0}, bound)
+        count = int(self._device.read(bound[COUNTERS])[1])
+        if count:
+            program.run(count * BLOCK, {**uniforms, "fine": 1}, bound)

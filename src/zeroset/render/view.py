@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from zeroset.arith import F32 as FORMAT
 from zeroset.kernel import F32, KernelBuilder, Value
 from zeroset.scene.camera import Rays
-from zeroset.solve.field import Ray
+from zeroset.scene.clip import outside
+from zeroset.solve.beam import Patch
+from zeroset.solve.field import Lowered, Ray
+from zeroset.solve.systems import automatic_system
 
 VECTORS = ("eye", "right_origin", "up_origin", "forward", "right", "up")
 
@@ -41,3 +46,14 @@ def beam_rays(builder: KernelBuilder, system: Any, u: Any, v: Any) -> tuple[list
         ]
 
     return affine(eye, across, upwards), affine(forward, right, up)
+
+
+def frame_patch(builder: KernelBuilder, lowered: Lowered, kind: str, u: Value, v: Value, half: Value) -> Patch:
+    """The rays through the frame's patch of half the side ``half`` around (u, v)."""
+    system = automatic_system(lowered.field, FORMAT, symbols=3)
+    origin, direction = beam_rays(builder, system, system.symbol(0, u, half), system.symbol(1, v, half))
+
+    def beyond(point: Sequence[Any]) -> Value:
+        return outside(builder, kind, system, point)
+
+    return Patch(lowered, system, origin, direction, beyond)

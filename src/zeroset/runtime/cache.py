@@ -13,50 +13,17 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import json
 import os
 import sys
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
-from zeroset.runtime.device import Signature
+from zeroset.runtime.compiled import Compiled
 
 _MAGIC = b"zeroset program 1\n"
 _LIMIT = 256 << 20
 _STALE = 3600.0
-
-
-@dataclass(frozen=True, slots=True)
-class Compiled:
-    """A program as it lies on disk.
-
-    Attributes:
-        signature: what a caller binds.
-        width: lanes of a packet.
-        kind: ``image`` (runs wherever it is put) or ``object`` (needs a linker).
-        code: the machine code.
-    """
-
-    signature: Signature
-    width: int
-    kind: str
-    code: bytes
-
-    def to_bytes(self) -> bytes:
-        """The file's content."""
-        head = json.dumps({"signature": self.signature.to_json(), "width": self.width, "kind": self.kind}).encode()
-        return len(head).to_bytes(4, "little") + head + self.code
-
-    @classmethod
-    def from_bytes(cls, data: bytes) -> Compiled:
-        """What ``to_bytes`` wrote; raises ``ValueError``, ``KeyError`` or ``TypeError`` on anything else."""
-        size = int.from_bytes(data[:4], "little")
-        head: Mapping[str, Any] = json.loads(data[4 : 4 + size])
-        return cls(Signature.from_json(head["signature"]), int(head["width"]), str(head["kind"]), data[4 + size :])
 
 
 @dataclass(frozen=True, slots=True)
@@ -253,26 +220,3 @@ def default_cache() -> Cache:
         return Cache(cache_folder())
     except (OSError, RuntimeError) as error:
         return Cache(None, reason=str(error))
-
-
-@lru_cache(maxsize=1)
-def source_stamp() -> str:
-    """A hash that changes with every file of the package, by name, size and time of change.
-
-    A checkout under development thus never runs code of an older state; it takes about a millisecond, which reading a
-    version number through the packaging metadata would cost too.
-    """
-    import zeroset.errors
-
-    root = os.path.dirname(zeroset.errors.__file__)
-    found: list[str] = []
-    folders = [root]
-    while folders:
-        with os.scandir(folders.pop()) as entries:
-            for entry in entries:
-                if entry.name.endswith(".py"):
-                    stat = entry.stat()
-                    found.append(f"{entry.path} {stat.st_size} {stat.st_mtime_ns}")
-                elif entry.is_dir() and entry.name != "__pycache__":
-                    folders.append(entry.path)
-    return hashlib.sha256("\n".join(sorted(found)).encode()).hexdigest()

@@ -7,21 +7,20 @@ to 600 instructions they gained no speed and doubled the time to compile.
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Callable
-from functools import lru_cache
-from importlib.util import find_spec
 from typing import Any
 
 from zeroset.codegen.target import Target
 from zeroset.errors import DeviceError
 from zeroset.kernel.build import Kernel
 from zeroset.runtime import image
-from zeroset.runtime.cache import Cache, Compiled, default_cache, source_stamp
+from zeroset.runtime.cache import Cache, default_cache
+from zeroset.runtime.compiled import Compiled
 from zeroset.runtime.device import HostMemory, Signature
 from zeroset.runtime.pool import Pool, thread_count
 from zeroset.runtime.program import CpuProgram
+from zeroset.runtime.stamps import cpu_stamp, llvm_stamp, source_stamp
 
 _ENTRY = "drain"
 _IN_MEMORY = 256
@@ -56,7 +55,8 @@ class CpuDevice(HostMemory):
         self.cache = default_cache() if cache is None else cache
         self._programs: dict[str, CpuProgram] = {}
         self._busy = threading.RLock()
-        self._stamp = f"{target.identity if target else _host_stamp()}|{source_stamp()}|{_llvm_stamp()}"
+        machine = target.identity if target else cpu_stamp() or self.target.identity
+        self._stamp = f"{machine}|{source_stamp()}|{llvm_stamp()}"
 
     @property
     def target(self) -> Target:
@@ -149,24 +149,3 @@ def host() -> tuple[Target, ...]:
     except (ImportError, OSError) as error:
         hint = 'reinstall llvmlite (pip install --force-reinstall "llvmlite>=0.50,<0.51"), or use device="interp"'
         raise DeviceError(f"LLVM, which compiles for the CPU, cannot be loaded: {error}", hint=hint) from error
-
-
-def _host_stamp() -> str:
-    """What tells this CPU from others, without LLVM where the system says it."""
-    wanted = ("vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU ")
-    try:
-        with open("/proc/cpuinfo") as file:
-            lines = file.read(1 << 14).split("\n\n")[0].splitlines()
-    except OSError:
-        return host()[0].identity
-    return os.uname().machine + "\n".join(line for line in lines if line.startswith(wanted))
-
-
-@lru_cache(maxsize=1)
-def _llvm_stamp() -> str:
-    """What tells this LLVM from others, without loading it; empty where there is none."""
-    found = find_spec("llvmlite")
-    if found is None or found.origin is None:
-        return ""
-    stat = os.stat(found.origin)
-    return f"{found.origin} {stat.st_size} {stat.st_mtime_ns}"

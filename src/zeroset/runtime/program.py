@@ -28,6 +28,8 @@ _CHUNKS = 64
 """Chunks that each thread should get, so that the last ones to finish do not wait long for each other."""
 _LARGEST_CHUNK = 128
 """Packets."""
+_FIRST_STRIDE = 4096
+"""Most packets before the first look of a dispatch: the last one may have been lighter by far."""
 
 _Drain = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, *[ctypes.c_int32] * 3)
 
@@ -98,6 +100,7 @@ class CpuProgram:
             threads = 1
         chunk = min(max(packets // (threads * _CHUNKS), 1), _LARGEST_CHUNK)
         self._next.value = 0
+        self._stride = min(self._stride, _FIRST_STRIDE)
         drain, slots, following = self._drain, self._slots, ctypes.byref(self._next)
 
         def work() -> bool:

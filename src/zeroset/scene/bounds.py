@@ -11,20 +11,38 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
 
-from zeroset.errors import BoundsError
+import numpy as np
+
+from zeroset.errors import BoundsError, ZerosetError
 
 Vector = tuple[float, float, float]
 
+LARGEST = 1e15
+"""Coordinates and radii stay below this, so that their squares and products are floats in every kernel."""
+SMALLEST = 1e-15
+"""The least radius and the least side, for the same reason."""
 
-def vector(value: Iterable[float], what: str) -> Vector:
-    """Three finite floats, or a ``BoundsError`` naming ``what``."""
+
+def vector(value: Iterable[float], what: str, error: type[ZerosetError] = BoundsError) -> Vector:
+    """Three finite floats below ``LARGEST``, or an error naming ``what``."""
     try:
         x, y, z = (float(v) for v in value)
-    except (TypeError, ValueError):
-        raise BoundsError(f"{what} must be three numbers, not {value!r}") from None
-    if not all(math.isfinite(v) for v in (x, y, z)):
-        raise BoundsError(f"{what} must be finite, not {value!r}")
+    except (TypeError, ValueError, OverflowError):
+        raise error(f"{what} must be three numbers, not {value!r}") from None
+    if not all(abs(v) < LARGEST for v in (x, y, z)):
+        raise error(f"{what} must be finite, and below {LARGEST:g} in every coordinate, not {value!r}")
     return x, y, z
+
+
+def number(value: float, what: str, error: type[ZerosetError] = BoundsError) -> float:
+    """A finite float, or an error naming ``what``."""
+    try:
+        result = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise error(f"{what} must be a number, not {value!r}") from None
+    if not math.isfinite(result):
+        raise error(f"{what} must be finite, not {value!r}")
+    return result
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +59,12 @@ class Ball:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "center", vector(self.center, "the centre of the bounds"))
-        if not (math.isfinite(self.radius) and 0 < self.radius < 1e15):
-            raise BoundsError(f"the radius of the bounds must be positive and finite, not {self.radius!r}", hint="try bounds=3.0")
+        object.__setattr__(self, "radius", number(self.radius, "the radius of the bounds"))
+        if not SMALLEST <= self.radius < LARGEST:
+            raise BoundsError(
+                f"the radius of the bounds must be from {SMALLEST:g} to {LARGEST:g}, not {self.radius!r}",
+                hint="try bounds=3.0",
+            )
 
     @property
     def extent(self) -> float:
@@ -70,10 +92,8 @@ class Box:
     def __post_init__(self) -> None:
         object.__setattr__(self, "min", vector(self.min, "the lower corner of the bounds"))
         object.__setattr__(self, "max", vector(self.max, "the upper corner of the bounds"))
-        if not all(a < b for a, b in zip(self.min, self.max, strict=True)):
+        if not all(b - a >= SMALLEST for a, b in zip(self.min, self.max, strict=True)):
             raise BoundsError(f"the bounds are empty: {self.min} is not below {self.max} in every coordinate")
-        if max(map(abs, (*self.min, *self.max))) >= 1e15:
-            raise BoundsError("the bounds are too large: coordinates must stay below 1e15")
 
     @property
     def center(self) -> Vector:
@@ -104,12 +124,15 @@ def parse_bounds(value: Any) -> Bounds | None:
         if keys == {"min", "max"}:
             return Box(value["min"], value["max"])
         if keys <= {"center", "radius"} and "radius" in keys:
-            return Ball(float(value["radius"]), value.get("center", (0.0, 0.0, 0.0)))
-        raise BoundsError(f"bounds have either min and max, or center and radius, not {', '.join(sorted(map(str, keys)))}")
-    if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2:
+            return Ball(value["radius"], value.get("center", (0.0, 0.0, 0.0)))
+        given = ", ".join(sorted(map(str, keys))) or "nothing"
+        raise BoundsError(f"bounds have either min and max, or center and radius, not {given}")
+    if isinstance(value, (Sequence, np.ndarray)) and not isinstance(value, str) and np.ndim(value) > 0:
+        if len(value) != 2:
+            raise BoundsError(f"bounds as a sequence are two corners, not {len(value)} items", hint="try bounds=3.0")
         return Box(value[0], value[1])
     try:
         radius = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise BoundsError(f"bounds must be a number, a Ball or a Box, not {value!r}", hint="try bounds=3.0") from None
     return Ball(radius)

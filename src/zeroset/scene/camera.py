@@ -16,7 +16,10 @@ from typing import Any
 import numpy as np
 
 from zeroset.errors import CameraError
-from zeroset.scene.bounds import Bounds, Vector
+from zeroset.scene.bounds import LARGEST, SMALLEST, Bounds, Vector, number, vector
+
+NARROWEST = 1e-3
+"""Least opening angle, and how far it stays below 180 degrees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,22 +61,22 @@ class Camera:
 
     def __post_init__(self) -> None:
         for name in ("eye", "target", "up"):
-            value = getattr(self, name)
-            try:
-                x, y, z = (float(v) for v in value)
-            except (TypeError, ValueError):
-                raise CameraError(f"the camera's {name} must be three numbers, not {value!r}") from None
-            if not all(map(math.isfinite, (x, y, z))):
-                raise CameraError(f"the camera's {name} must be finite, not {value!r}")
-            object.__setattr__(self, name, (x, y, z))
+            object.__setattr__(self, name, vector(getattr(self, name), f"the camera's {name}", CameraError))
         if self.height is not None:
             object.__setattr__(self, "fov", None)
-            if not (math.isfinite(self.height) and self.height > 0):
-                raise CameraError(f"the camera's height must be positive, not {self.height!r}")
-        elif self.fov is None or not 0 < self.fov < 180:
-            raise CameraError(f"the camera's fov must be between 0 and 180 degrees, not {self.fov!r}")
-        if math.dist(self.eye, self.target) == 0:
+            object.__setattr__(self, "height", number(self.height, "the camera's height", CameraError))
+            if not SMALLEST <= self.height < LARGEST:
+                raise CameraError(f"the camera's height must be from {SMALLEST:g} to {LARGEST:g}, not {self.height!r}")
+        elif self.fov is None:
+            raise CameraError("a camera needs a fov (perspective) or a height (orthographic)")
+        else:
+            object.__setattr__(self, "fov", number(self.fov, "the camera's fov", CameraError))
+            if not NARROWEST <= self.fov <= 180 - NARROWEST:
+                raise CameraError(f"the camera's fov must be between 0 and 180 degrees, not {self.fov!r}")
+        if math.dist(self.eye, self.target) < SMALLEST:
             raise CameraError("the camera looks at its own place: move eye away from target")
+        if math.hypot(*self.up) < SMALLEST:
+            raise CameraError("the camera's up must not be zero", hint="try up=(0, 0, 1)")
 
     def rays(self, width: int, height: int) -> Rays:
         """The affine map from frame coordinates to rays for a frame of that many pixels."""
@@ -96,15 +99,24 @@ class Camera:
         return Rays(_vector(eye), zero, zero, _vector(forward), across, upwards)
 
     def orbit(self, degrees: float, elevation: float = 0.0) -> Camera:
-        """The camera turned around its target: ``degrees`` about z, then ``elevation`` degrees up."""
+        """The camera turned around its target: ``degrees`` about z, then ``elevation`` degrees up.
+
+        Raises:
+            CameraError: an angle is not finite.
+        """
+        turn = math.radians(number(degrees, "the orbit's angle", CameraError))
+        climb = math.radians(number(elevation, "the orbit's elevation", CameraError))
         offset = np.asarray(self.eye) - np.asarray(self.target)
         radius = float(np.linalg.norm(offset))
-        azimuth = math.atan2(offset[1], offset[0]) + math.radians(degrees)
-        polar = math.asin(max(-1.0, min(1.0, offset[2] / radius))) + math.radians(elevation)
+        azimuth = math.atan2(offset[1], offset[0]) + turn
+        polar = math.asin(max(-1.0, min(1.0, offset[2] / radius))) + climb
         polar = max(-math.pi / 2 + 1e-6, min(math.pi / 2 - 1e-6, polar))
         turned = (math.cos(polar) * math.cos(azimuth), math.cos(polar) * math.sin(azimuth), math.sin(polar))
         eye = np.asarray(self.target) + radius * np.asarray(turned)
-        return replace(self, eye=_vector(eye))
+        # Up turns along: seen from straight above, the picture itself is what turns.
+        x, y, z = self.up
+        up = (x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn), z)
+        return replace(self, eye=_vector(eye), up=up)
 
 
 def _vector(array: Any) -> Vector:
@@ -130,6 +142,6 @@ def parse_camera(value: Any, bounds: Bounds) -> Camera:
     if isinstance(value, Mapping):
         unknown = set(value) - {"eye", "target", "up", "fov", "height"}
         if unknown:
-            raise CameraError(f"a camera has no {sorted(map(str, unknown))[0]}: it has eye, target, up, fov and height")
+            raise CameraError(f"a camera has no {min(map(str, unknown))!r}: it has eye, target, up, fov and height")
         return Camera(**value)
     raise CameraError(f"a camera must be a Camera or a mapping, not {value!r}")

@@ -19,7 +19,7 @@ import dataclasses
 import os
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,8 +27,8 @@ from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
 from zeroset.scene.bounds import Ball, Bounds, parse_bounds
 from zeroset.scene.camera import Camera
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
-from zeroset.scene.scene import Scene
-from zeroset.scene.surface import surface
+from zeroset.scene.scene import MOST_LIGHTS, Scene, as_scene
+from zeroset.scene.surface import Surface, surface
 
 KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights")
 LARGEST = 4_000_000
@@ -46,10 +46,17 @@ def load(path: str | os.PathLike[str]) -> Scene:
 
     Raises:
         SceneFileError: the file is missing, is no scene, or has a wrong entry; the message names file and line.
+
+    Example:
+        >>> import os, tempfile
+        >>> import zeroset as zs
+        >>> path = os.path.join(tempfile.mkdtemp(), "ball.toml")
+        >>> _ = zs.save(zs.surface("x^2 + y^2 + z^2 = r^2", {"r": 2.0}), path)
+        >>> zs.load(path).surface.params["r"]
+        2.0
     """
     source = Path(path)
-    if source.suffix.lower() != ".toml":
-        raise SceneFileError(f"cannot tell the format of {source.name!r}", path=path, hint="scene files end in .toml")
+    _check_suffix(source)
     try:
         if source.stat().st_size > LARGEST:
             raise SceneFileError(f"the scene file is larger than {LARGEST} bytes", path=path)
@@ -61,13 +68,21 @@ def load(path: str | os.PathLike[str]) -> Scene:
     return loads(text, path)
 
 
+def _check_suffix(path: Path) -> None:
+    if path.suffix.lower() != ".toml":
+        raise SceneFileError(f"cannot tell the format of {path.name!r}", path=path, hint="scene files end in .toml")
+
+
 def loads(text: str, path: str | os.PathLike[str] = "scene.toml") -> Scene:
     """A scene from the text of a scene file; ``path`` is what errors call it."""
     try:
         data = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         found = re.search(r"line (\d+)", str(error))
-        raise SceneFileError(f"this is no TOML: {error}", path=path, line=int(found[1]) if found else None) from None
+        line = int(found[1]) if found else None
+        if "end of document" in str(error):
+            line = max(1, len(text.splitlines()))
+        raise SceneFileError(f"this is no TOML: {error}", path=path, line=line) from None
     return _Reader(text, path).scene(data)
 
 
@@ -99,17 +114,16 @@ class _Reader:
         lights = data.get("lights")
         if lights is not None and not isinstance(lights, list):
             raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
+        params = self._table(data, "params")
         with _placing(self, "formula"):
-            shape = surface(data["formula"], self._table(data, "params"), name=str(data.get("name", "")))
+            shape = surface(data["formula"], params, name=str(data.get("name", "")))
         with _placing(self, "bounds"):
             shape = dataclasses.replace(shape, bounds=parse_bounds(data.get("bounds")))
-        return Scene(
-            shape,
-            None if "camera" not in data else self.build(Camera, data["camera"], "camera"),
-            self.build(Material, data.get("material", {}), "material"),
-            DEFAULT_LIGHTS if lights is None else tuple(self.build(Light, light, "lights") for light in lights),
-            self._color(data.get("background", DEFAULT_BACKGROUND)),
-        )
+        camera = None if "camera" not in data else self.build(Camera, data["camera"], "camera")
+        material = self.build(Material, data.get("material", {}), "material")
+        lit = DEFAULT_LIGHTS if lights is None else tuple(self.build(Light, light, "lights") for light in lights)
+        with _placing(self, "lights" if len(lit) > MOST_LIGHTS else "background"):
+            return Scene(shape, camera, material, lit, data.get("background", DEFAULT_BACKGROUND))
 
     def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
         value = data.get(key, {})
@@ -120,18 +134,23 @@ class _Reader:
     def build(self, cls: type[Any], data: Any, where: str) -> Any:
         fields = tuple(f.name for f in dataclasses.fields(cls))
         values = {k: tuple(v) if isinstance(v, list) else v for k, v in self.known(data, fields, where).items()}
-        with _placing(self, next(iter(values), where)):
-            try:
-                return cls(**values)
-            except TypeError as error:
-                raise self.fail(f"{where} has a value of the wrong kind: {error}", where) from None
-
-    def _color(self, value: Any) -> tuple[float, float, float]:
         try:
-            r, g, b = (float(v) for v in value)
-        except (TypeError, ValueError):
-            raise self.fail(f"background must be three numbers, not {value!r}", "background") from None
-        return r, g, b
+            return cls(**values)
+        except ZerosetError as error:
+            raise self.fail(str(error), next(filter(_refused(cls, values), values), where)) from None
+
+
+def _refused(cls: type[Any], values: Mapping[str, Any]) -> Callable[[str], bool]:
+    """Says which one of several values is not taken even by itself: the one to blame."""
+
+    def refuses(key: str) -> bool:
+        try:
+            cls(**{key: values[key]})
+        except ZerosetError:
+            return True
+        return False
+
+    return refuses
 
 
 class _placing:  # noqa: N801 - reads as a statement
@@ -149,10 +168,11 @@ class _placing:  # noqa: N801 - reads as a statement
             raise self._reader.fail(str(error), self._key) from None
 
 
-def dumps(scene: Scene) -> str:
+def dumps(scene: Scene | Surface) -> str:
     """The text of a scene file; ``loads`` gives the same scene back."""
     import tomli_w
 
+    scene = as_scene(scene)
     shape = scene.surface
     data: dict[str, Any] = {"formula": shape.formula}
     if shape.name:
@@ -177,17 +197,24 @@ def _bounds_data(bounds: Bounds) -> Any:
     return dataclasses.asdict(bounds)
 
 
-def save(scene: Scene, path: str | os.PathLike[str]) -> Path:
-    """Write a scene file, whole or not at all.
+def save(scene: Scene | Surface, path: str | os.PathLike[str]) -> Path:
+    """Write a scene file, whole or not at all; gives its path.
 
     Raises:
+        SceneFileError: the file's name does not end in ``.toml``.
         OutputError: the file cannot be written.
+
+    Example:
+        >>> import os, tempfile
+        >>> import zeroset as zs
+        >>> path = os.path.join(tempfile.mkdtemp(), "ball.toml")
+        >>> zs.save(zs.surface("x^2 + y^2 + z^2 = 1"), path).name
+        'ball.toml'
     """
     from zeroset.atomic import replacing
 
     target = Path(path)
-    if target.suffix.lower() != ".toml":
-        raise SceneFileError(f"cannot tell the format of {target.name!r}", path=path, hint="scene files end in .toml")
+    _check_suffix(target)
     data = dumps(scene).encode()
     with replacing(target) as file:
         file.write(data)

@@ -1,23 +1,32 @@
 """Lights, materials and background: how a surface is lit in the first frame (Blinn-Phong, two-sided).
 
-Colours are linear-light RGB in [0, 1]; the picture is encoded to sRGB at the very end. Front is the side that the
+Colours are linear-light RGB, 1 for full; the picture is encoded to sRGB at the very end. Front is the side that the
 gradient points to (growing f), back the other.
 """
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from zeroset.errors import SceneFileError
-from zeroset.scene.bounds import Vector
+from zeroset.errors import ParameterError
+from zeroset.scene.bounds import Vector, number, vector
 
 Color = tuple[float, float, float]
 
+BRIGHTEST = 1e6
+"""Largest component of a colour: a light may be far brighter than white."""
 
-def _check(values: tuple[float, ...], what: str) -> None:
-    if len(values) != 3 or not all(math.isfinite(v) for v in values):
-        raise SceneFileError(f"{what} must be three finite numbers, not {values!r}")
+SHORTEST = 1e-15
+"""A light's direction with no component above this has no direction at all."""
+
+
+def color(values: Iterable[float], what: str) -> Color:
+    """Three numbers from 0 to ``BRIGHTEST``, or a ``ParameterError`` naming ``what``."""
+    made = vector(values, what, ParameterError)
+    if not all(0 <= v <= BRIGHTEST for v in made):
+        raise ParameterError(f"{what} must be three numbers, 0 for none and 1 for full, not {made!r}")
+    return made
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +44,10 @@ class Light:
     headlight: bool = True
 
     def __post_init__(self) -> None:
-        _check(self.direction, "a light's direction")
-        _check(self.color, "a light's colour")
-        if not any(self.direction):
-            raise SceneFileError("a light's direction must not be zero")
+        object.__setattr__(self, "direction", vector(self.direction, "a light's direction", ParameterError))
+        object.__setattr__(self, "color", color(self.color, "a light's colour"))
+        if max(map(abs, self.direction)) < SHORTEST:
+            raise ParameterError("a light's direction must not be zero")
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,13 +71,15 @@ class Material:
     shininess: float = 40.0
 
     def __post_init__(self) -> None:
-        _check(self.front, "a material's front colour")
-        _check(self.back, "a material's back colour")
+        object.__setattr__(self, "front", color(self.front, "a material's front colour"))
+        object.__setattr__(self, "back", color(self.back, "a material's back colour"))
+        for name in ("ambient", "diffuse", "specular", "shininess"):
+            object.__setattr__(self, name, number(getattr(self, name), f"a material's {name}", ParameterError))
         for name in ("ambient", "diffuse", "specular"):
-            if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0):
-                raise SceneFileError(f"a material's {name} must not be negative")
-        if not (math.isfinite(self.shininess) and 0 < self.shininess <= 10000):
-            raise SceneFileError("a material's shininess must be between 0 and 10000")
+            if not 0 <= getattr(self, name) <= BRIGHTEST:
+                raise ParameterError(f"a material's {name} must not be negative, or above {BRIGHTEST:g}")
+        if not 0 < self.shininess <= 10000:
+            raise ParameterError("a material's shininess must be above 0 and at most 10000")
 
 
 DEFAULT_LIGHTS = (Light(), Light(direction=(0.8, 0.1, 0.55), color=(0.22, 0.24, 0.30)))

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from zeroset.errors import ZerosetError
+from zeroset.errors import ParameterError, ZerosetError
 from zeroset.scene.camera import Camera
-from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material
+from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
 from zeroset.scene.surface import Surface, surface
+
+MOST_LIGHTS = 32
+"""Lights of a scene: each is code in the shading kernel."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,20 @@ class Scene:
     lights: tuple[Light, ...] = DEFAULT_LIGHTS
     background: Color = DEFAULT_BACKGROUND
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.surface, Surface):
+            raise ParameterError(f"a scene's surface must be a Surface, not a {type(self.surface).__name__}")
+        if not isinstance(self.material, Material):
+            raise ParameterError(f"a scene's material must be a Material, not {self.material!r}")
+        lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
+        for light in lights:
+            if not isinstance(light, Light):
+                raise ParameterError(f"a scene's lights must be Lights, not {light!r}")
+        if len(lights) > MOST_LIGHTS:
+            raise ParameterError(f"a scene has at most {MOST_LIGHTS} lights, not {len(lights)}")
+        object.__setattr__(self, "lights", tuple(lights))
+        object.__setattr__(self, "background", color(self.background, "the background"))
+
 
 def as_scene(value: Surface | Scene | str) -> Scene:
     """A Scene as it is, a Surface or a formula with everything else by default."""
@@ -43,4 +60,4 @@ def as_scene(value: Surface | Scene | str) -> Scene:
         return Scene(value)
     if isinstance(value, str):
         return Scene(surface(value))
-    raise ZerosetError(f"cannot draw a {type(value).__name__}", hint="give a Surface, a Scene or a formula as text")
+    raise ZerosetError(f"cannot draw something of type {type(value).__name__}", hint="give a Surface, a Scene or a formula as text")

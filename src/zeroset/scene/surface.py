@@ -18,7 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.errors import ArrayShapeError, FormulaError, ParameterError, did_you_mean
-from zeroset.expr import Expr, degree, evaluate, parse, text
+from zeroset.expr import Expr, degree, evaluate, parse, postorder, text
+from zeroset.expr.text import brief
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
 
@@ -55,12 +56,17 @@ class ExprField:
         """An upper bound of the degree in x, y, z; None for what is no polynomial."""
         return degree(self.expr)
 
+    @cached_property
+    def highest_power(self) -> int:
+        """The largest whole exponent in f as it is written."""
+        return max((abs(int(part.data[0])) for part in postorder(self.expr) if part.op == "powi"), default=1)
+
     def evaluate(self, system: Any, env: Any) -> Any:
         """f on numbers of ``system``."""
         return evaluate(self.expr, system, env)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Surface:
     """The set f = 0 inside bounds.
 
@@ -125,10 +131,20 @@ class Surface:
 
         return fit_bounds(self)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Surface) and self._identity() == other._identity()
+
+    def __hash__(self) -> int:
+        return hash(self._identity())
+
+    def _identity(self) -> tuple[object, ...]:
+        """All that a surface is, as something to compare and to hash."""
+        params = tuple(sorted(self.params.items()))
+        arrays = tuple((name, values.tobytes()) for name, values in sorted(self.arrays.items()))
+        return self.field.digest, params, arrays, self.bounds, self.camera, self.name
+
     def __repr__(self) -> str:
-        formula = self.formula
-        shown = formula if len(formula) <= 60 else formula[:57] + "..."
-        return f"<zeroset.Surface {self.name or shown!r}>"
+        return f"<zeroset.Surface {self.name or brief(self.field.expr, 60)!r}>"
 
 
 def _number(name: str, value: Any) -> float:
@@ -172,8 +188,6 @@ def _check_names(field: ExprField, params: Mapping[str, float], arrays: Mapping[
 
 def index_groups(expr: Expr) -> list[frozenset[str]]:
     """Array parameters that share a sum's index, sum by sum."""
-    from zeroset.expr.dag import postorder
-
     groups: dict[str, set[str]] = {}
     for part in postorder(expr):
         if part.op == "element":
@@ -213,6 +227,8 @@ def surface(
         >>> zs.surface("x^4 - a*x^2 + y^4 + z^4", params={"a": 5.0}, bounds=3.0).params["a"]
         5.0
     """
+    if params is not None and not isinstance(params, Mapping):
+        raise ParameterError(f"params must be a mapping of names to values, not {params!r}", hint="try params={'a': 1.0}")
     values = dict(params or {})
     limits = parse_bounds(bounds)
     if isinstance(source, Surface):

@@ -1,9 +1,12 @@
-"""Beams: one conservative search for all rays of a screen tile, affine in u, v and t.
+"""Beams: one conservative search for all rays through a patch of the frame, affine in u, v and t.
 
 A tile's rays are o + t d with o and d affine in the frame coordinates u and v. On numbers with three symbols f is
 enclosed over the whole beam between two values of t, and what is excluded there is excluded for each of its rays. The
 beam strides from the near end; once its step comes down to about its own width it stops, and the tile's rays start
 there. A tile whose beam reaches the far end has no hit at all.
+
+A beam of one pixel finds what a ray through the pixel's middle cannot: parts of the surface thinner than a pixel, down to
+Steiner's axes, which have no thickness at all (SN10 figure 6, K09 figure 6).
 """
 
 from __future__ import annotations
@@ -12,7 +15,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from zeroset.kernel import U32, Value, constant, while_
+from zeroset.arith import Dual, DualSystem
+from zeroset.kernel import BOOL, U32, Value, constant, if_, while_
 from zeroset.solve.field import Lowered
 
 
@@ -26,32 +30,45 @@ class Beam:
     steps: Value
 
 
-def point_on_beam(system: Any, origin: Sequence[Any], direction: Sequence[Any], t: Any) -> list[Any]:
-    """o + t d on numbers of a three-symbol system."""
-    return [o + d * t for o, d in zip(origin, direction, strict=True)]
+@dataclass(frozen=True, slots=True)
+class Patch:
+    """The rays through a patch of the frame.
+
+    Attributes:
+        lowered: f in this kernel.
+        system: a three-symbol affine system; symbols 0 and 1 are u and v, symbol 2 is t.
+        origin: origins of the rays, as numbers in u and v.
+        direction: their directions.
+        outside: says where a region lies outside the bounds.
+    """
+
+    lowered: Lowered
+    system: Any
+    origin: Sequence[Any]
+    direction: Sequence[Any]
+    outside: Callable[[Sequence[Any]], Value]
+
+    def over(self, a: Value, b: Value) -> tuple[Sequence[Any], Any]:
+        """All points of the patch's rays with t in [a, b], and that t."""
+        middle = (a + b) * 0.5
+        half = (b - middle).maximum(middle - a) * (1.0 + 2.0**-20)
+        t = self.system.symbol(2, middle, half)
+        return [o + d * t for o, d in zip(self.origin, self.direction, strict=True)], t
+
+    def excludes(self, point: Sequence[Any]) -> Value:
+        """Whether f certainly has no zero inside the bounds at these points."""
+        f = self.lowered.evaluate(self.system, *point)
+        return ~f.contains_zero() | self.outside(point)
 
 
-def trace_beam(
-    lowered: Lowered,
-    system: Any,
-    origin: Sequence[Any],
-    direction: Sequence[Any],
-    near: Value,
-    far: Value,
-    finest: Value,
-    outside: Callable[[Sequence[Any]], Value],
-) -> Beam:
+def trace_beam(patch: Patch, near: Value, far: Value, finest: Value) -> Beam:
     """Stride along one beam until a step of ``finest`` cannot be excluded.
 
     Args:
-        lowered: f in this kernel.
-        system: a three-symbol affine system; symbol 2 is t.
-        origin: origins of the tile's rays, as numbers in u and v.
-        direction: their directions.
+        patch: the beam's rays.
         near: start of the search, at or before each ray's own.
         far: its end.
         finest: the shortest step worth trying.
-        outside: says where a region lies outside the bounds.
     """
 
     def running(a: Value, h: Value, done: Value, steps: Value) -> Value:
@@ -59,15 +76,61 @@ def trace_beam(
 
     def turn(a: Value, h: Value, done: Value, steps: Value) -> tuple[Value, ...]:
         b = a + h
-        middle = (a + b) * 0.5
-        half = (b - middle).maximum(middle - a) * (1.0 + 2.0**-20)
-        point = point_on_beam(system, origin, direction, system.symbol(2, middle, half))
-        f = lowered.evaluate(system, *point)
-        excluded = ~f.contains_zero() | outside(point)
+        excluded = patch.excludes(patch.over(a, b)[0])
         stop = ~excluded & (h <= finest)
         return excluded.select(b, a), excluded.select(h * 2.0, stop.select(h, h * 0.5)), stop, steps + 1
 
     step = ((far - near) * 0.25).maximum(finest)
-    false = ~(near.eq(near))
-    a, h, done, steps = while_(running, turn, near, step, false, constant(0, U32))
+    a, h, done, steps = while_(running, turn, near, step, constant(False, BOOL), constant(0, U32))
     return Beam(a, h, ~done, steps)
+
+
+PATIENCE = 200
+"""Evaluations that the search for a thin part may cost a pixel."""
+
+
+@dataclass(frozen=True, slots=True)
+class Thin:
+    """Whether a pixel may hold a thin part of the surface, at which t, and the evaluations spent."""
+
+    found: Value
+    t: Value
+    steps: Value
+
+
+def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:
+    """Look along a pixel's beam for a part of the surface that is thinner than the pixel.
+
+    Where a step of ``finest`` cannot be excluded, the derivatives of f across the pixel decide: near an ordinary
+    silhouette one of them keeps its sign, and the pixel is left to its ray; where both may vanish f has an extremum
+    near zero inside the pixel, which is what a thin part is.
+    """
+
+    def running(a: Value, h: Value, found: Value, count: Value) -> Value:
+        return ~found & (a < far) & (count < PATIENCE)
+
+    def turn(a: Value, h: Value, found: Value, count: Value) -> tuple[Value, ...]:
+        b = a + h
+        point, t = patch.over(a, b)
+        excluded = patch.excludes(point)
+        stuck = ~excluded & (h <= finest)
+        (thin,) = if_(stuck, lambda: (_flat_across(patch, t),), lambda: (False,))
+        passed = excluded | (stuck & ~thin)
+        return passed.select(b, a), excluded.select(h * 2.0, stuck.select(h, h * 0.5)), thin, count + 1
+
+    a, h, found, count = while_(running, turn, near, step.maximum(finest), constant(False, BOOL), constant(0, U32))
+    return Thin(found, a + h * 0.5, count)
+
+
+def _flat_across(patch: Patch, t: Any) -> Value:
+    """Whether both derivatives of f across the pixel may vanish at this t."""
+    dual = DualSystem(patch.system, 2)
+
+    def across(base: Any) -> Any:
+        # Affine in u and v: the form's own terms are its derivatives, scaled to the pixel.
+        slopes = (None if isinstance(u, float) else patch.system.exact(u) for u in base.terms[:2])
+        return Dual(dual, base, tuple(slopes))
+
+    moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
+    f = patch.lowered.evaluate(dual, *moved)
+    return f.derivative(0).contains_zero() & f.derivative(1).contains_zero()

@@ -18,7 +18,7 @@ from zeroset.solve.field import Field
 from zeroset.solve.method import Method, register
 from zeroset.solve.mitchell import isolate, sign_of
 from zeroset.solve.problem import Answer, Problem
-from zeroset.solve.raypoly import SYSTEM, Factored, as_value, factor, horner, ray_polynomial
+from zeroset.solve.raypoly import SYSTEM, TINY, Factored, as_value, factor, horner, largest, ray_polynomial
 
 Interval = Any
 
@@ -69,10 +69,13 @@ class _Extension:
         derivative = [c * SYSTEM.constant(k, k) for k, c in enumerate(coefficients) if k]
         self._critical: list[tuple[Interval, Value, Interval]] = []
         self._slack: Value | None = None
+        self._usable: Value | None = None
         if len(derivative) > 1:
             factored: Factored = factor(derivative)
             self._critical = [(root, real, horner(coefficients, root)) for root, real in factored.roots()]
             self._slack = factored.residual * 2.0
+            # A residual as large as the coefficients, or NaN, comes from factors that mean nothing.
+            self._usable = factored.residual < largest(derivative).maximum(TINY)
 
     def over(self, a: Value, b: Value) -> Interval:
         ends = (horner(self._coefficients, SYSTEM.exact(a)), horner(self._coefficients, SYSTEM.exact(b)))
@@ -83,10 +86,12 @@ class _Extension:
             low = inside.select(low.minimum(as_value(value.lo)), low)
             high = inside.select(high.maximum(as_value(value.hi)), high)
         hull = SYSTEM.bounds(low, high)
-        if self._slack is None:
+        if self._slack is None or self._usable is None:
             return hull
         wider = SYSTEM.exact(self._slack) * (SYSTEM.exact(b) - SYSTEM.exact(a))
-        return hull + SYSTEM.bounds(-as_value(wider.hi), as_value(wider.hi))
+        hull = hull + SYSTEM.bounds(-as_value(wider.hi), as_value(wider.hi))
+        plain = horner(self._coefficients, SYSTEM.bounds(a, b))
+        return SYSTEM.bounds(self._usable.select(hull.lo, plain.lo), self._usable.select(hull.hi, plain.hi))
 
     def point(self, t: Value) -> Value:
         """The certain sign at one point, or 0."""

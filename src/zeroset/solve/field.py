@@ -52,6 +52,10 @@ class Field(Protocol):
     def degree(self) -> int | None:
         """An upper bound of the polynomial degree in x, y, z; None where f is no polynomial."""
 
+    @property
+    def highest_power(self) -> int:
+        """The largest whole exponent in f as it is written; 1 where there is none."""
+
     def evaluate(self, system: Any, env: Any) -> Number:
         """f on numbers of ``system`` with leaves from ``env``."""
 

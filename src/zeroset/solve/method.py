@@ -41,8 +41,8 @@ class Method:
     def __post_init__(self) -> None:
         for item in dataclasses.fields(self):
             value = getattr(self, item.name)
-            if isinstance(value, float) and not math.isfinite(value):
-                raise MethodError(f"{self.name}: {item.name} must be finite, not {value!r}")
+            if item.metadata.get("uniform") and not (isinstance(value, (int, float)) and math.isfinite(value)):
+                raise MethodError(f"{self.name}: {item.name} must be a finite number, not {value!r}")
 
     def structure(self) -> str:
         """What shapes the kernel: the name and the options that are no uniforms."""

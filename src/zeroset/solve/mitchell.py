@@ -53,8 +53,8 @@ class _IntervalPieces:
         half = (b - middle).maximum(middle - a) * (1.0 + 2.0**-20)
         t = self._dual.variable(self._plain.enclose(middle, half), 0)
         f = self._problem.lowered.along(self._dual, self._problem.ray, t)
-        whole = f.value.defined & f.gradient[0].defined
-        slope = sign_of(self._problem, f.gradient[0])
+        whole = f.value.defined & f.derivative(0).defined
+        slope = sign_of(self._problem, f.derivative(0))
         if whole is not True:
             slope = whole.select(slope, 0.0)
         return ~f.value.contains_zero(), slope, whole

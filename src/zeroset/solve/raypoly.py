@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 from zeroset.arith import F32 as FORMAT
@@ -22,6 +23,8 @@ from zeroset.solve.problem import Problem
 SYSTEM = IntervalSystem(FORMAT)
 Interval = Any
 TINY = 1e-30
+NEGLIGIBLE = 2.0**-24
+"""A leading coefficient below this share of the largest is taken for this share."""
 
 
 def as_value(x: Value | float) -> Value:
@@ -68,7 +71,7 @@ def ray_polynomial(problem: Problem, degree: int) -> RayPolynomial:
     points = []
     for o, d in zip(problem.ray.origin, problem.ray.direction, strict=True):
         through = SYSTEM.exact(o) + SYSTEM.exact(d) * SYSTEM.exact(middle)
-        points.append(system.line(through, SYSTEM.exact(d) * SYSTEM.exact(half)))
+        points.append(system.linear(through, SYSTEM.exact(d) * SYSTEM.exact(half)))
     f = problem.lowered.evaluate(system, *points)
     known = [c if c is not None else SYSTEM.constant(0.0, 0.0) for c in f.coefficients]
     known += [SYSTEM.constant(0.0, 0.0)] * (degree + 1 - len(known))
@@ -100,8 +103,21 @@ class Quadratic:
         low = as_value(discriminant.lo).maximum(0.0)
         high = as_value(discriminant.hi).maximum(0.0)
         wide = SYSTEM.bounds(low, high).sqrt()
-        centre = SYSTEM.constant(0.0, 0.0) - self._shift()
-        return (centre - wide, real), (centre + wide, real)
+        # The root of larger magnitude adds up without cancelling; the other is c over it, unless both may be 0.
+        flipped = self.b < 0.0
+        size = SYSTEM.exact(abs(self.b)) * SYSTEM.constant(0.5, 0.5) + wide
+        sure = as_value(size.lo) > TINY
+        small = SYSTEM.exact(self.c) / SYSTEM.bounds(sure.select(size.lo, 1.0), sure.select(size.hi, 1.0))
+        plain = SYSTEM.exact(abs(self.b)) * SYSTEM.constant(0.5, 0.5) - wide
+        near_low, near_high = sure.select(small.lo, plain.lo), sure.select(small.hi, plain.hi)
+        larger = _signed(flipped, as_value(size.lo), as_value(size.hi))
+        smaller = _signed(flipped, near_low, near_high)
+        return (larger, real), (smaller, real)
+
+
+def _signed(flipped: Value, low: Value, high: Value) -> Interval:
+    """The interval, negated unless ``flipped``."""
+    return SYSTEM.bounds(flipped.select(low, -high), flipped.select(high, -low))
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,11 +163,19 @@ def middle_of(x: Interval) -> Value:
     return (as_value(x.lo) + as_value(x.hi)) * 0.5
 
 
+def largest(coefficients: Sequence[Interval]) -> Value:
+    """The largest magnitude among the coefficients' middles."""
+    sizes = [abs(middle_of(x)) for x in coefficients]
+    return reduce(lambda a, b: a.maximum(b), sizes)
+
+
 def factor(coefficients: Sequence[Interval]) -> Factored:
-    """Factor a polynomial of degree 1 to 4 in e; a leading coefficient near 0 shows as a large residual."""
+    """Factor a polynomial of degree 1 to 4 in e; a leading coefficient far below the others shows in the residual."""
     c = [middle_of(x) for x in coefficients]
     lead = c[-1]
-    safe = (abs(lead) > TINY).select(lead, TINY)
+    # Factors with roots beyond 2^24 would leave the range in which f32 can square and cube them.
+    least = (largest(coefficients) * NEGLIGIBLE).maximum(TINY)
+    safe = (abs(lead) > least).select(lead, least)
     monic = [x / safe for x in c[:-1]]
     factors = _FACTORINGS[len(monic)](monic)
     return Factored(safe, factors, _residual(coefficients, safe, factors))

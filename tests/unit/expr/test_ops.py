@@ -31,7 +31,9 @@ def test_keywords_get_an_underscore_as_methods():
     assert [OPS[name].method for name in ("and", "or", "not", "add")] == ["and_", "or_", "not_", "add"]
 
 
-@pytest.mark.parametrize("row", [row for row in OPS.values() if row.kind not in {"leaf", "sum"}], ids=lambda row: row.name)
+@pytest.mark.parametrize(
+    "row", [row for row in OPS.values() if row.kind not in {"leaf", "sum"}], ids=lambda row: row.name
+)
 def test_constants_have_an_enclosure_for_every_operator(row):
     assert callable(getattr(Decimals(20), row.method))
 

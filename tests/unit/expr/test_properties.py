@@ -6,13 +6,14 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from zeroset.errors import FormulaError
-from zeroset.expr import degree, enclose, parse, polynomial, postorder, rewrite, text
-from zeroset.expr.build import build, shared
+from zeroset.expr import enclose, parse, postorder, rewrite, text
+from zeroset.expr.build import shared
 
 MANY = settings(
     max_examples=3000,
     deadline=None,
-    derandomize=False, database=None,
+    derandomize=False,
+    database=None,
     suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
 )
 

@@ -41,9 +41,10 @@ class _Merger(Rewriter):
         key = _key(op, operands, instruction)
         results = self.seen.get(key)
         if results is None:
-            results = self.seen[key] = self.make(instruction, operands).results
+            self.seen[key] = self.place(instruction, operands, (), self.blocks[-1]).results
             self.added[-1].append(key)
-        self.bind(instruction.results, results)
+        else:
+            self.bind(instruction.results, results)
 
 
 def _key(op: str, operands: tuple[Value, ...], instruction: Instruction) -> Any:

@@ -111,15 +111,9 @@ class _Sweeper(Rewriter):
         region = instruction.regions[number]
         counter = 1 if instruction.op == "for" else 0
         shown = list(range(counter)) + ([counter + i for i in kept] if region.parameters else [])
-        parameters = tuple(region.parameters[i] for i in shown)
-        copy = Block(tuple(p.type for p in parameters))
-        self.bind(parameters, copy.parameters)
-        self.blocks.append(copy)
-        self.inside(region)
-        self.blocks.pop()
         is_condition = instruction.op == "while" and number == 0
-        copy.yields = self.all(region.yields if is_condition else tuple(region.yields[i] for i in kept))
-        return copy
+        yields = region.yields if is_condition else tuple(region.yields[i] for i in kept)
+        return self.region(region, tuple(region.parameters[i] for i in shown), yields)
 
 
 def dce(kernel: Kernel) -> Kernel:

@@ -20,21 +20,21 @@ from zeroset.kernel.value import Instruction, Value, constant_value
 
 
 class Folder(Rewriter):
-    """A copy in which constants are computed and laws applied."""
+    """A rebuilding in which constants are computed and laws applied."""
 
     def __init__(self) -> None:
         super().__init__()
         self._constants: dict[int, Any] = {}
 
     def instruction(self, instruction: Instruction) -> None:
-        """Copy an instruction, or bind its result to what it equals."""
+        """Rebuild an instruction, or bind its result to what it equals."""
         if instruction.regions:
             self._control(instruction)
             return
         operands = self.all(instruction.operands)
         value = self._simplify(instruction, operands)
         if value is None:
-            self.bind(instruction.results, self.make(instruction, operands).results)
+            self.place(instruction, operands, (), self.blocks[-1])
         else:
             self.values[id(instruction.results[0])] = value
 
@@ -57,7 +57,7 @@ class Folder(Rewriter):
         return self.constant(result, type_) if np.isfinite(result) else None
 
     def _control(self, instruction: Instruction) -> None:
-        """Branches on constants and loops that never run vanish; the rest is copied."""
+        """Branches on constants and loops that never run vanish; the rest is rebuilt."""
         op = instruction.op
         decided = self.all(instruction.operands[:1])
         if op == "if" and self.is_constant(decided[0]):
@@ -72,7 +72,7 @@ class Folder(Rewriter):
     # ------------------------------------------------------- what laws use
 
     def is_constant(self, value: Value) -> bool:
-        """Whether a value of the copy is a literal."""
+        """Whether a value is a literal."""
         return value.definition is not None and value.definition.op == "const"
 
     def number(self, value: Value) -> Any:

@@ -9,13 +9,13 @@ from __future__ import annotations
 from zeroset.kernel.build import Kernel
 from zeroset.kernel.ops import OPS
 from zeroset.kernel.passes.rewriter import Rewriter, regions_of
-from zeroset.kernel.value import Block, Instruction
+from zeroset.kernel.value import Block, Instruction, Value
 
 
 class _Hoister(Rewriter):
     def __init__(self) -> None:
         super().__init__()
-        # How many blocks lie around each of the copy's values, and which of the open blocks belong to loops.
+        # How many blocks lie around each value, and which of the open blocks belong to loops.
         self.depths: dict[int, int] = {}
         self.loops: list[bool] = [False]
 
@@ -25,34 +25,25 @@ class _Hoister(Rewriter):
         return super().block(block)
 
     def instruction(self, instruction: Instruction) -> None:
+        """Rebuild an instruction in the outermost block that it may go to."""
         depth = len(self.blocks) - 1
-        if not instruction.regions:
-            if OPS[instruction.op].pure:
-                depth = self._highest(instruction)
-            copy = self._copy(instruction, depth)
-        else:
-            operands = self.all(instruction.operands)
+        operands = self.all(instruction.operands)
+        regions: tuple[Block, ...] = ()
+        if instruction.regions:
             self.loops.append(instruction.op != "if")
-            regions = tuple(self.block(r) for r in instruction.regions)
+            regions = tuple([self.block(r) for r in instruction.regions])
             self.loops.pop()
-            copy = self.make(instruction, operands, regions)
-            self.bind(instruction.results, copy.results)
-        for result in instruction.results:
+        elif OPS[instruction.op].pure:
+            depth = self._highest(instruction.op, operands)
+        for result in self.place(instruction, operands, regions, self.blocks[depth]).results:
             self.depths[id(result)] = depth
 
-    def _copy(self, instruction: Instruction, depth: int) -> Instruction:
-        types = tuple([v.type for v in instruction.results])
-        copy = Instruction(instruction.op, self.all(instruction.operands), instruction.attributes, types)
-        self.blocks[depth].instructions.append(copy)
-        self.bind(instruction.results, copy.results)
-        return copy
-
-    def _highest(self, instruction: Instruction) -> int:
+    def _highest(self, op: str, operands: tuple[Value, ...]) -> int:
         """The outermost block where the operands are known and that only loops separate from here."""
-        if instruction.op == "const":
+        if op == "const":
             return 0
         depths = self.depths
-        needed = max([depths[id(v)] for v in instruction.operands], default=0)
+        needed = max([depths[id(v)] for v in operands], default=0)
         depth = len(self.blocks) - 1
         while depth > needed and self.loops[depth]:
             depth -= 1

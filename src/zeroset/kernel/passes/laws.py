@@ -66,8 +66,8 @@ def _div(f: Folder, a: Value, b: Value) -> Value | None:
     if f.is_constant(b):
         number = f.number(b)
         mantissa, exponent = np.frexp(number)
-        # A power of two, far enough inside that its reciprocal is normal.
-        if abs(mantissa) == 0.5 and abs(int(exponent)) < -int(np.finfo(b.type.dtype).minexp):
+        # A power of two that is normal, as is its reciprocal; NumPy's mantissas are in [1/2, 1).
+        if abs(mantissa) == 0.5 and abs(int(exponent) - 1) <= -int(np.finfo(b.type.dtype).minexp):
             return f.emit("mul", (a, f.constant(1 / number, b.type)), a.type)
     return None
 

@@ -1,7 +1,8 @@
-"""Copies a kernel, instruction by instruction; a pass is a copy that does something else with some of them.
+"""Rebuilds a kernel, instruction by instruction; a pass is a rebuilding that does something else with some of them.
 
-Kernels are never changed in place, so whoever holds one, or its digest, may keep it. A pass overrides
-``instruction``, or reads and fills ``values``: the copy's value for each value of the original.
+Kernels are never changed in place, so whoever holds one, or its digest, may keep it. What a pass leaves as it was is
+shared between the old kernel and the new: instructions whose operands did not change, and the parameters of blocks.
+``values`` holds the new value of each old one that did change. A pass overrides ``instruction`` or ``block``.
 """
 
 from __future__ import annotations
@@ -11,53 +12,62 @@ from zeroset.kernel.value import Block, Instruction, Value
 
 
 class Rewriter:
-    """A plain copy; see the module's text."""
+    """A rebuilding that changes nothing; see the module's text."""
 
     def __init__(self) -> None:
         self.values: dict[int, Value] = {}
         self.blocks: list[Block] = []
 
     def kernel(self, kernel: Kernel) -> Kernel:
-        """The copy of a kernel."""
+        """The rebuilt kernel."""
         return Kernel(kernel.name, kernel.uniforms, kernel.buffers, self.block(kernel.body))
 
     def block(self, block: Block) -> Block:
-        """The copy of a block."""
-        copy = Block(tuple(p.type for p in block.parameters))
-        self.bind(block.parameters, copy.parameters)
-        self.blocks.append(copy)
+        """A block rebuilt."""
+        return self.region(block, block.parameters, block.yields)
+
+    def region(self, block: Block, parameters: tuple[Value, ...], yields: tuple[Value, ...]) -> Block:
+        """A block rebuilt with some of its parameters and yields."""
+        made = Block()
+        made.parameters = parameters
+        self.blocks.append(made)
         self.inside(block)
         self.blocks.pop()
-        copy.yields = self.all(block.yields)
-        return copy
+        made.yields = self.all(yields)
+        return made
 
     def inside(self, block: Block) -> None:
-        """Copy a block's instructions to the end of the block being made."""
+        """Rebuild a block's instructions at the end of the block being made."""
         for instruction in block.instructions:
             self.instruction(instruction)
 
     def instruction(self, instruction: Instruction) -> None:
-        """Copy one instruction, regions included."""
+        """Rebuild one instruction, regions included."""
         operands = self.all(instruction.operands)
-        copy = self.make(instruction, operands, tuple(self.block(r) for r in instruction.regions))
-        self.bind(instruction.results, copy.results)
+        self.place(instruction, operands, tuple([self.block(r) for r in instruction.regions]), self.blocks[-1])
 
-    def make(self, like: Instruction, operands: tuple[Value, ...], regions: tuple[Block, ...] = ()) -> Instruction:
-        """Append an instruction like another one, on other operands and regions."""
-        types = tuple([v.type for v in like.results])
-        copy = Instruction(like.op, operands, like.attributes, types, regions)
-        self.blocks[-1].instructions.append(copy)
-        return copy
+    def place(
+        self, instruction: Instruction, operands: tuple[Value, ...], regions: tuple[Block, ...], block: Block
+    ) -> Instruction:
+        """Append an instruction with new operands and regions, or itself where they are the old ones."""
+        if not regions and operands == instruction.operands:
+            block.instructions.append(instruction)
+            return instruction
+        types = tuple([v.type for v in instruction.results])
+        made = Instruction(instruction.op, operands, instruction.attributes, types, regions)
+        block.instructions.append(made)
+        self.bind(instruction.results, made.results)
+        return made
 
     def all(self, values: tuple[Value, ...]) -> tuple[Value, ...]:
-        """The copies of values."""
+        """What values have become."""
         known = self.values
-        return tuple([known[id(v)] for v in values])
+        return tuple([known.get(id(v), v) for v in values])
 
-    def bind(self, originals: tuple[Value, ...], copies: tuple[Value, ...]) -> None:
-        """Say which values stand for which."""
-        for original, copy in zip(originals, copies, strict=True):
-            self.values[id(original)] = copy
+    def bind(self, old: tuple[Value, ...], new: tuple[Value, ...]) -> None:
+        """Say what values have become."""
+        for before, after in zip(old, new, strict=True):
+            self.values[id(before)] = after
 
 
 def regions_of(kernel: Kernel) -> list[Block]:

@@ -73,7 +73,7 @@ NOTHING = {"index", "load", "uniform", "store", "const", "convert"}
         (lambda k, x, a: x * 0.0, "mul"),
         (lambda k, x, a: x - x, "sub"),
         (lambda k, x, a: x * -1.0, "neg"),
-        (lambda k, x, a: -(-x), ""),
+        (lambda k, x, a: (-x).__neg__(), ""),
         (lambda k, x, a: abs(-x), "abs"),
         (lambda k, x, a: abs(abs(x)), "abs"),
         (lambda k, x, a: x + -a, "sub"),
@@ -117,7 +117,7 @@ def test_laws(make: Callable[[KernelBuilder, Value, Value], Value], left: str) -
 
 def test_powers_of_two_divide_exactly() -> None:
     values = np.array([1e-45, 1e-38, 3.3, -7.7, 3e38, np.inf, np.nan, -0.0], np.float32)
-    for divisor in (2.0**125, 2.0**-125, -4.0):
+    for divisor in (2.0**126, 2.0**-126, -4.0):
         kernel = traced(lambda k, x, a, by=divisor: x / by)
         assert "div" not in ops(PASSES["fold"](kernel))
         results = []
@@ -192,7 +192,7 @@ def test_dce_drops_what_nobody_reads() -> None:
         atomic("add", counts, 0, 1)
         any_(x > 2.0)
         while_(lambda v: v > 1.0, lambda v: v * 0.5, x)
-        if_(x > 1.0, lambda: (x.exp2(),) if hasattr(x, "exp2") else (x.sqrt(),), lambda: (x,))
+        if_(x > 1.0, lambda: (x.sqrt(),), lambda: (x,))
 
         def body(j: Value, kept: Value, dead: Value, unread: Value, through: Value) -> tuple[Value, ...]:
             return kept + through, dead * x.floor(), unread, through * 0.5
@@ -213,7 +213,7 @@ def test_dce_keeps_what_decides_whether_a_store_runs() -> None:
         out, i = k.buffer("out", F32, writable=True), k.index()
 
         def body(v: Value, w: Value) -> tuple[Value, Value]:
-            if_(w.floor() > 3.0, lambda: store(out, i, v))
+            if_(w.floor() > a, lambda: store(out, i, v))
             return v * 0.5, w.sqrt()
 
         while_(lambda v, w: v > 1.0, body, x, x)

@@ -1,0 +1,117 @@
+"""``zeroset bench``: how fast this machine draws the gallery, what frames do to memory, how long the command takes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import click
+
+from zeroset.cli.progress import Progress
+
+if TYPE_CHECKING:
+    from zeroset.bench.devices import Devices
+    from zeroset.bench.report import Cost
+
+MEMORY_SURFACE = "tangle"
+COMMAND_SURFACE = "barth-sextic"
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What the user asked to have measured; the options of the command."""
+
+    names: tuple[str, ...]
+    sizes: tuple[int, ...]
+    threads: int | None
+    method: str
+    device: str
+    seconds: float
+    kind: str | None
+    frames: int
+    runs: int
+
+
+@click.command("bench")
+@click.argument("names", nargs=-1)
+@click.option("-s", "--size", "sizes", multiple=True, type=click.IntRange(8, 16384), help="Pixels a side; repeatable.")
+@click.option("--threads", type=click.IntRange(1, 1024), help="Threads that a frame is spread over.")
+@click.option("-m", "--method", default="auto", show_default=True, help="Ray method.")
+@click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
+@click.option("--seconds", default=0.5, show_default=True, type=click.FloatRange(0), help="Time for each size.")
+@click.option("--memory", "kind", flag_value="memory", help="Instead: growth and compilations over many frames.")
+@click.option("--cold", "kind", flag_value="cold", help="Instead: the whole command, from formula to PNG.")
+@click.option("--frames", default=1000, show_default=True, type=click.IntRange(1), help="Frames for --memory.")
+@click.option("--runs", default=5, show_default=True, type=click.IntRange(1), help="Processes of each kind for --cold.")
+@click.option("--markdown", is_flag=True, help="Print the table in Markdown.")
+@click.option("--json", "json_file", metavar="FILE", help="Write all figures to a file too.")
+def command(markdown: bool, json_file: str | None, **wish: object) -> None:
+    """Time the surfaces NAMES, or all of the gallery: frames in steady state, compiling, and how far the limit is."""
+    from zeroset.atomic import check_writable, replacing
+    from zeroset.bench import report
+    from zeroset.bench.devices import Devices
+    from zeroset.bench.machine import this_machine
+    from zeroset.solve import resolve_method
+
+    wanted = Wish(**wish)  # type: ignore[arg-type]
+    path = None if json_file is None else check_writable(json_file)
+    resolve_method(wanted.method)
+    devices = Devices(wanted.device, wanted.threads)
+    costs, interrupted = _collect(wanted, devices)
+    machine = this_machine(devices.steady)
+    if costs:
+        table = report.table(costs, machine)
+        click.echo(table.markdown()) if markdown else table.show()
+    if interrupted:
+        raise click.Abort
+    if path is not None:
+        with replacing(path) as file:
+            file.write(report.to_json(costs, machine).encode())
+
+
+def _collect(wish: Wish, devices: Devices) -> tuple[list[Cost], bool]:
+    """What could be measured before it was all done, or before the user interrupted, and whether he did."""
+    measure = {"memory": _memory, "cold": _cold}.get(wish.kind or "", _frames)
+    costs: list[Cost] = []
+    with Progress("timing") as progress:
+        try:
+            costs.extend(measure(wish, devices, progress))
+        except KeyboardInterrupt:
+            return costs, True
+    return costs, False
+
+
+def _frames(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
+    from zeroset.bench.frames import measure
+    from zeroset.shelf import gallery
+
+    names = wish.names or tuple(gallery)
+    surfaces = [gallery[name] for name in names]
+    for i, surface in enumerate(surfaces):
+        progress(i / len(surfaces))
+        yield measure(surface, wish.sizes or (512, 1024), wish.method, devices, wish.seconds)
+
+
+def _memory(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
+    from zeroset.bench.memory import measure_memory
+    from zeroset.shelf import gallery
+
+    for name, part in _parts(wish.names or (MEMORY_SURFACE,), progress):
+        for size in wish.sizes or (512,):
+            yield measure_memory(gallery[name], wish.frames, size, wish.method, devices, part)
+
+
+def _cold(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
+    from zeroset.bench.cold import measure_command
+
+    options = ("-m", wish.method, "-d", wish.device)
+    for name, part in _parts(wish.names or (COMMAND_SURFACE,), progress):
+        for size in wish.sizes or (512,):
+            yield measure_command(name, size, wish.runs, options, wish.threads, part)
+
+
+def _parts(names: Sequence[str], progress: Callable[[float], None]) -> Iterator[tuple[str, Callable[[float], None]]]:
+    """Names, each with its share of the progress."""
+    for i, name in enumerate(names):
+        yield name, lambda share, i=i: progress((i + share) / len(names))  # type: ignore[misc]

@@ -1,0 +1,172 @@
+"""``zeroset explain``: what a formula was understood to mean, and what becomes of it on the way to machine code."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+import click
+
+from zeroset.cli.source import FormulaCommand, find_scene, read_method, surface_options
+from zeroset.errors import ZerosetError, did_you_mean
+
+if TYPE_CHECKING:
+    from zeroset.expr import Expr
+    from zeroset.kernel import Kernel
+    from zeroset.scene.scene import Scene
+    from zeroset.scene.surface import Surface
+    from zeroset.solve import Method
+
+SHORT = 24
+"""Operations of a formula that are listed without being asked for."""
+TRACED = "traced"
+"""The name of a kernel's state before the first pass."""
+
+
+@click.command("explain", cls=FormulaCommand)
+@surface_options
+@click.option("--dag", is_flag=True, help="List all operations of the formula.")
+@click.option("--kernel", metavar="NAME", help="Show one kernel: beams, primary, second or shade.")
+@click.option("--pass", "pass_name", metavar="NAME", help="Show it after this pass ('traced': before the first).")
+@click.option("--passes", is_flag=True, help="Show it after each pass that changes it.")
+@click.option("--target", metavar="CODE", help="Show the code made of it: llvm or asm.")
+def command(
+    source: str,
+    params: tuple[str, ...],
+    bounds: str | None,
+    method: str,
+    device: str,
+    dag: bool,
+    kernel: str | None,
+    pass_name: str | None,
+    passes: bool,
+    target: str | None,
+) -> None:
+    """Explain SOURCE: the formula as understood, its operations, its kernels after each pass, the target code."""
+    scene = find_scene(source, params, bounds)
+    chosen = read_method(method)
+    chosen.check(scene.surface.field)
+    made = kernels(scene, chosen)
+    if dag and not (kernel or pass_name or passes or target):
+        lines: Iterable[str] = operations(scene.surface.field.expr)
+    elif kernel or pass_name or passes or target:
+        wanted = made[_one_of(kernel or "primary", made, f"kernel of the method {chosen.name}")]()
+        lines = _target_code(wanted, target) if target else _stages(wanted, pass_name, passes)
+    else:
+        lines = (*_formula(scene.surface, chosen), *_short(scene.surface.field.expr), *_counts(made), *_more())
+    for line in lines:
+        click.echo(line)
+
+
+def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
+    """What traces each kernel of a frame, by name, in the order they run."""
+    from zeroset.render.primary import beam_kernel, camera_ray, second_kernel, trace_kernel
+    from zeroset.render.shading import shade_kernel
+    from zeroset.scene.clip import bounds_kind
+
+    field, offset, proven = scene.surface.field, method.offset != 0.0, method.certified
+    kind = bounds_kind(scene.surface.fitted)
+    made: dict[str, Callable[[], Kernel]] = {}
+    if proven:
+        made["beams"] = lambda: beam_kernel(field, offset, kind)
+    made["primary"] = lambda: trace_kernel(field, method, kind, camera_ray, proven, proven)
+    if proven:
+        made["second"] = lambda: second_kernel(field, offset, kind, camera_ray)
+    made["shade"] = lambda: shade_kernel(len(scene.lights))
+    return made
+
+
+def _one_of(name: str, known: Iterable[str], what: str) -> str:
+    names = tuple(known)
+    if name not in names:
+        raise ZerosetError(
+            f"there is no {what} named {name!r}", hints=(*did_you_mean(name, names), f"there are {', '.join(names)}")
+        )
+    return name
+
+
+def _formula(surface: Surface, method: Method) -> Iterator[str]:
+    from zeroset.expr.text import brief
+
+    expr = surface.field.expr
+    if surface.name:
+        yield f"name        {surface.name}"
+    yield f"formula     {brief(expr, 400)} = 0"
+    degree = surface.field.degree
+    yield f"kind        {'no polynomial' if degree is None else f'polynomial of degree {degree}'}"
+    yield f"variables   {', '.join(sorted(expr.variables))}"
+    values = [f"{name} = {value:g}" for name, value in surface.params.items()]
+    values += [f"{name} ({len(array)} numbers)" for name, array in surface.arrays.items()]
+    yield f"parameters  {', '.join(values) or 'none'}"
+    yield f"bounds      {surface.fitted}{'' if surface.bounds is not None else ', fitted'}"
+    yield f"method      {method.name}, {'certified' if method.certified else 'not certified'}: {method.summary}"
+    yield f"operations  {expr.size} distinct"
+
+
+def _short(expr: Expr) -> Iterator[str]:
+    if expr.size <= SHORT:
+        yield from (f"  {line}" for line in operations(expr))
+
+
+def operations(expr: Expr) -> Iterator[str]:
+    """The DAG as numbered lines, each operation after its arguments."""
+    from zeroset.expr import postorder
+
+    numbers: dict[Expr, int] = {}
+    for part in postorder(expr):
+        numbers[part] = len(numbers)
+        arguments = [f"%{numbers[arg]}" for arg in part.args]
+        data = [str(item) for item in part.data]
+        yield f"%{numbers[part]} = {' '.join((part.op, ', '.join(arguments + data)))}"
+
+
+def _stages_of(kernel: Kernel) -> dict[str, Kernel]:
+    """The kernel as traced and after each pass."""
+    from zeroset.kernel.passes import optimise
+
+    stages = {TRACED: kernel}
+    optimise(kernel, stages.__setitem__)
+    return stages
+
+
+def _counts(made: Mapping[str, Callable[[], Kernel]]) -> Iterator[str]:
+    from zeroset.kernel.text import count_instructions
+
+    stages = {name: _stages_of(make()) for name, make in made.items()}
+    heads = tuple(next(iter(stages.values())))
+    yield "kernels     instructions after each pass"
+    yield f"  {'':8}" + "".join(f"{head:>9}" for head in heads)
+    for name, kernels_of in stages.items():
+        yield f"  {name:8}" + "".join(f"{count_instructions(kernels_of[head].body):9}" for head in heads)
+
+
+def _more() -> Iterator[str]:
+    yield "more: --dag, --kernel NAME, --pass NAME, --passes, --target llvm, --target asm"
+
+
+def _stages(kernel: Kernel, pass_name: str | None, passes: bool) -> Iterator[str]:
+    from zeroset.kernel.text import count_instructions, to_text
+
+    stages = _stages_of(kernel)
+    shown = tuple(stages) if passes else (_one_of(pass_name or tuple(stages)[-1], stages, "pass"),)
+    before: Kernel | None = None
+    for name in shown:
+        stage = stages[name]
+        yield f"# {kernel.name}, {name}: {count_instructions(stage.body)} instructions"
+        if stage is before:
+            yield "# unchanged"
+        else:
+            yield to_text(stage)
+        before = stage
+
+
+def _target_code(kernel: Kernel, target: str | None) -> Iterator[str]:
+    from zeroset.codegen import llvm
+    from zeroset.codegen.assembly import to_assembly
+    from zeroset.kernel.passes import optimise
+    from zeroset.runtime.cpu import host
+
+    kind = _one_of(str(target), ("llvm", "asm"), "target code")
+    cpu = host()[0]
+    code = llvm.to_llvm(optimise(kernel), cpu)
+    yield code if kind == "llvm" else to_assembly(code, cpu)

@@ -1,0 +1,54 @@
+"""Each gallery surface, each proving method: rays from everywhere, held to first roots that Arb certifies.
+
+``ZEROSET_TRUTH_RAYS`` sets how many rays a surface gets; ``python -m tests.truth`` does the same at length with figures.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from functools import lru_cache
+
+import pytest
+
+import zeroset as zs
+
+from .conftest import Report
+from .held import Trial, proving_methods
+from .judge import Kind
+
+RAYS = int(os.environ.get("ZEROSET_TRUTH_RAYS", "32"))
+FALSE_ALARMS = 0.15
+"""Share of a surface's rays that may be left unresolved more than four tolerances away from any root."""
+
+
+@lru_cache(maxsize=1)
+def trial(name: str) -> Trial:
+    return Trial(zs.gallery[name], RAYS)
+
+
+def cases() -> Iterator[tuple[str, str]]:
+    for name in zs.gallery:
+        for method in proving_methods(zs.gallery[name]):
+            yield name, method
+
+
+@pytest.mark.parametrize(("name", "method"), list(cases()))
+def test_every_answer_is_true(name: str, method: str, report: Report) -> None:
+    rays = trial(name)
+    report.judged(name, len(rays.verdicts), len(rays.unsettled))
+    account = rays.hold(proving_methods(rays.surface)[method])
+    report.held(method, account)
+    assert not account.broken, "\n".join(account.broken)
+    assert account.false_alarms <= FALSE_ALARMS * len(rays.verdicts)
+    assert account.statuses["hit"] > 0
+
+
+@pytest.mark.parametrize("name", list(zs.gallery))
+def test_the_judge_settles_nearly_all(name: str) -> None:
+    rays = trial(name)
+    assert len(rays.unsettled) <= len(rays.verdicts) // 8
+    # The rays are worth their name: they meet the surface, and they miss it or touch it.
+    kinds = {verdict.root.kind if verdict.root else None for verdict in rays.verdicts}
+    assert Kind.CROSS in kinds
+    assert len(kinds) > 1

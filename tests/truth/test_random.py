@@ -1,0 +1,45 @@
+"""Random formulas, held to Arb like the gallery: polynomials, elementary functions, kinks, jumps and domain edges.
+
+``ZEROSET_TRUTH_EXAMPLES`` sets how many; by hand a few thousand.
+"""
+
+from __future__ import annotations
+
+import os
+
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+import zeroset as zs
+from zeroset.methods import Affine, Auto, Interval, Method, Mitchell
+
+from .formulas import aimed, formulas
+from .held import held
+from .judge import Judge
+
+EXAMPLES = int(os.environ.get("ZEROSET_TRUTH_EXAMPLES", "60"))
+WORK = 400
+"""Evaluations that the judge may spend on a ray: some formulas jump everywhere, and cannot be settled."""
+
+OTHERS: tuple[Method, ...] = (Interval(), Affine(), Mitchell(), Affine(axis="k"), Interval(axis="k"))
+
+
+@settings(
+    max_examples=EXAMPLES,
+    derandomize=True,
+    deadline=None,
+    database=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
+)
+@given(formula=formulas(), seed=st.integers(0, 2**32 - 1))
+def test_answers_about_any_formula_are_true(formula: str, seed: int) -> None:
+    case = aimed(formula, seed)
+    assume(case is not None)
+    assert case is not None
+    judge = Judge(case.surface, WORK)
+    rays = list(zip(case.origins.tolist(), case.directions.tolist(), strict=True))
+    verdicts = [judge.first_root(origin, direction) for origin, direction in rays]
+    for method in (Auto(), OTHERS[seed % len(OTHERS)]):
+        hits = zs.cast(case.surface, case.origins, case.directions, method=method, device="cpu")
+        account = held(verdicts, hits, case.origins, case.directions)
+        assert not account.broken, f"{case.surface.formula} by {method}:\n" + "\n".join(account.broken)
