@@ -18,13 +18,24 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "src"))
 
 import numpy as np
 import programs
-import zeroset as zs
 from scenes import CASES, Case
+
+import zeroset as zs
 from zeroset.bench.machine import this_machine
 from zeroset.bench.report import Table
 from zeroset.runtime import get_device
 
-COLUMNS = ("surface", "program", "seconds", "best", "rendering alone", "× frame", "× warm process", "other pixels", "note")
+COLUMNS = (
+    "surface",
+    "program",
+    "seconds",
+    "best",
+    "rendering alone",
+    "× frame",
+    "× warm process",
+    "other pixels",
+    "note",
+)
 TRIAL = Path(__file__).parent.parent.parent / "shared" / "trial" / "trial.py"
 
 
@@ -40,7 +51,9 @@ def main() -> int:
             rows += _compare(case, options)
     except KeyboardInterrupt:
         print("interrupted: this is what is done", file=sys.stderr)
-    notes = [f"Square pictures of {options.size} pixels a side, {options.rounds} rounds, medians, one core for everybody."]
+    notes = [
+        f"Square pictures of {options.size} pixels a side, {options.rounds} rounds, medians, one core for everybody."
+    ]
     notes += [f"Not installed and so not compared: {name}." for name in programs.missing()]
     table = Table("bench/peers.py", COLUMNS, tuple(rows), (*notes, str(this_machine(get_device("cpu")))))
     print(table.markdown()) if options.markdown else table.show()
@@ -50,11 +63,15 @@ def main() -> int:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("folder", type=Path, help="where scenes and pictures are left")
-    parser.add_argument("cases", nargs="*", metavar="SURFACE", help=f"of {', '.join(case.name for case in CASES)}; default all")
+    parser.add_argument(
+        "cases", nargs="*", metavar="SURFACE", help=f"of {', '.join(case.name for case in CASES)}; default all"
+    )
     parser.add_argument("--size", type=int, default=1024, help="pixels a side")
     parser.add_argument("--rounds", type=int, default=3, help="turns of each program")
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
-    parser.add_argument("--trial", type=Path, default=TRIAL, help="script of the design's trial, timed where it is there")
+    parser.add_argument(
+        "--trial", type=Path, default=TRIAL, help="script of the design's trial, timed where it is there"
+    )
     options = parser.parse_args()
     options.folder = options.folder.resolve()
     unknown = set(options.cases) - {case.name for case in CASES}
@@ -75,8 +92,9 @@ def _compare(case: Case, options: argparse.Namespace) -> list[tuple[str, ...]]:
         competitors.append(programs.trial(options.trial))
     for i in range(options.rounds):
         for program in competitors:
-            print(f"{case.name}, round {i + 1}: {program.name}", file=sys.stderr)
+            print(f"{case.name}, round {i + 1}: {program.name}", end="", flush=True, file=sys.stderr)
             program.take_turn()
+            print(f" {program.failure or f'{program.seconds[-1]:.3f} s'}", file=sys.stderr)
     truth = zs.render(case.scene, options.size).aov("status") != zs.MISS
     frame, warm = competitors[0].median, competitors[1].median
     return [_row(case, program, frame, warm, truth) for program in competitors]

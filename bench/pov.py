@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from scenes import ONE_LIGHT, Case
 from surf import camera_axes
+
 from zeroset.expr import enclose, polynomial
 
 LOOK = "pigment { rgb <.95,.52,.12> } finish { ambient .12 diffuse .8 specular .35 }"
@@ -29,14 +30,14 @@ def polynomial_scene(case: Case) -> str | None:
 def isosurface_scene(case: Case) -> str:
     """The scene with POV-Ray's isosurface."""
     body = case.isosurface(case.surface)
-    ball = f"contained_by {{ sphere {{ 0, {case.bounding_radius:.9g} }} }} open"
-    shape = f"isosurface {{ function {{ {body} }}\n{ball} max_gradient {case.max_gradient:g} {LOOK} }}\n"
+    region = case.container or f"sphere {{ 0, {case.bounding_radius:.9g} }}"
+    shape = f"isosurface {{ function {{ {body} }}\ncontained_by {{ {region} }} open "
+    shape += f"max_gradient {case.max_gradient:g} {LOOK} }}\n"
     return _stage(case) + case.declarations + shape
 
 
 def _stage(case: Case) -> str:
-    camera = case.surface.camera
-    assert camera is not None and camera.fov is not None
+    camera = case.camera
     light = np.asarray(ONE_LIGHT[0].direction) @ np.asarray(camera_axes(camera)) * 1000.0
     return (
         "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\nbackground { rgb 1 }\n"
@@ -49,5 +50,3 @@ def _stage(case: Case) -> str:
 
 def _vector(values: object) -> str:
     return "<" + ",".join(f"{v:.9g}" for v in np.asarray(values, np.float64)) + ">"
-
-

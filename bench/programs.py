@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
@@ -18,9 +19,10 @@ import numpy as np
 import numpy.typing as npt
 import pov
 import surf
-import zeroset as zs
 from scenes import Case
-from zeroset.bench.cold import START
+
+import zeroset as zs
+from zeroset.bench.cold import START, environment
 from zeroset.scene.file import save
 
 LONGEST = 600.0
@@ -62,8 +64,8 @@ class Program:
 
     @property
     def median(self) -> float:
-        """Seconds."""
-        return statistics.median(self.seconds)
+        """Seconds; nan where it never came to an end."""
+        return statistics.median(self.seconds or [math.nan])
 
 
 def programs(case: Case, size: int, folder: Path) -> list[Program]:
@@ -158,12 +160,12 @@ def trial(script: Path) -> Program:
     return Program("the design's trial, a frame", run, note="best of 10, its own view, 1024²")
 
 
-def _process(line: list[str], **environment: str) -> tuple[float, str]:
+def _process(line: list[str], **more: str) -> tuple[float, str]:
     """Seconds of a process, and all that it printed."""
     begin = time.perf_counter()
     done = subprocess.run(
         line,
-        env={**os.environ, **environment},
+        env=environment() | more,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         timeout=LONGEST,
@@ -181,4 +183,5 @@ def silhouette(picture: Path) -> npt.NDArray[np.bool_]:
     from PIL import Image
 
     with Image.open(picture) as image:
-        return np.any(np.asarray(image.convert("RGB")) != 255, axis=-1)
+        drawn: npt.NDArray[np.bool_] = np.any(np.asarray(image.convert("RGB")) != 255, axis=-1)
+    return drawn

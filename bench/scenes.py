@@ -24,8 +24,9 @@ class Case:
         name: in zeroset's gallery.
         isosurface: makes the body of POV-Ray's function, declarations before it aside.
         declarations: what that function uses.
-        max_gradient: the least power of 2 times a small number for which POV-Ray's picture has no holes.
+        max_gradient: the least power of 2 from which on POV-Ray's picture does not change any more.
         radius: of the ball that bounds it; None takes the gallery's.
+        container: what POV-Ray's isosurface is looked for in, where a tighter region than the ball holds all of it.
     """
 
     name: str
@@ -33,12 +34,21 @@ class Case:
     max_gradient: float
     declarations: str = ""
     radius: float | None = None
+    container: str = ""
 
     @cached_property
     def surface(self) -> zs.Surface:
         """The surface inside its ball."""
         found = zs.gallery[self.name]
         return found if self.radius is None else found.with_bounds(self.radius)
+
+    @property
+    def camera(self) -> zs.Camera:
+        """The surface's own camera, which must be one that every program has."""
+        camera = self.surface.camera
+        if camera is None or camera.fov is None or any(camera.target):
+            raise ValueError(f"{self.name} must be seen in perspective, from a camera that looks at the origin")
+        return camera
 
     @property
     def scene(self) -> zs.Scene:
@@ -49,8 +59,8 @@ class Case:
     def bounding_radius(self) -> float:
         """Radius of the ball around the origin that everybody clips to."""
         bounds = self.surface.fitted
-        assert isinstance(bounds, zs.Ball), f"{self.name} must be shown in a ball"
-        assert not any(bounds.center), f"the ball of {self.name} must be around the origin"
+        if not isinstance(bounds, zs.Ball) or any(bounds.center):
+            raise ValueError(f"{self.name} must be shown in a ball around the origin")
         return bounds.radius
 
 
@@ -63,7 +73,9 @@ def _blobs(surface: zs.Surface) -> str:
     epsilon = surface.params["epsilon"]
     terms = []
     for r, *center in zip(*columns, strict=True):
-        squares = "+".join(f"({axis}-({c!r}))*({axis}-({c!r}))" for axis, c in zip("xyz", map(float, center), strict=True))
+        squares = "+".join(
+            f"({axis}-({c!r}))*({axis}-({c!r}))" for axis, c in zip("xyz", map(float, center), strict=True)
+        )
         terms.append(f"{float(r * r)!r}/({squares}+{epsilon!r})")
     return "1-(" + "+".join(terms) + ")"
 
@@ -73,11 +85,13 @@ _T14 = (
     "#declare T = function(q) { -1 + q*(98 + q*(-1568 + q*(9408 + q*(-26880 + q*(39424 + q*(-28672 + q*8192)))))) };\n"
 )
 
+_CUBE = "box { -1.006, 1.006 }"
+
 CASES = (
     Case(
         "barth-sextic",
         _fixed("4*(P2*x*x - y*y)*(P2*y*y - z*z)*(P2*z*z - x*x) - (1 + 2*P)*SQ(x*x + y*y + z*z - 1)"),
-        max_gradient=64,
+        max_gradient=128,
         declarations=_PHI,
     ),
     Case(
@@ -90,7 +104,14 @@ CASES = (
         max_gradient=1024,
         declarations=_PHI,
     ),
-    Case("chmutov-14", _fixed("T(x*x) + T(y*y) + T(z*z)"), max_gradient=512, declarations=_T14, radius=1.75),
+    Case(
+        "chmutov-14",
+        _fixed("T(x*x) + T(y*y) + T(z*z)"),
+        max_gradient=512,
+        declarations=_T14,
+        radius=1.75,
+        container=_CUBE,
+    ),
     Case("blinn-blobby-30", _blobs, max_gradient=64),
     Case(
         "clebsch",

@@ -11,8 +11,9 @@ import re
 from pathlib import Path
 
 import numpy as np
-import zeroset as zs
 from scenes import ONE_LIGHT, Case
+
+import zeroset as zs
 
 HALF = 10.0
 """Units from the middle of surf's picture to its edge."""
@@ -25,16 +26,17 @@ def script(case: Case, size: int, picture: Path) -> str | None:
     surface = case.surface
     if surface.field.degree is None:
         return None
-    camera = surface.camera
-    assert camera is not None and camera.fov is not None and not any(camera.target)
+    camera = case.camera
     axes = camera_axes(camera)
     distance = math.dist(camera.eye, camera.target)
-    unit = distance * math.tan(math.radians(camera.fov) / 2) / HALF
+    unit = distance * math.tan(math.radians(camera.fov or 0.0) / 2) / HALF
     names = ("u", "v", "w")
     lines = [f"width={size};", f"height={size};", "perspective=central;", f"spec_z={distance / unit:.9g};"]
     lines += ["clip=sphere;", f"radius={case.bounding_radius / unit:.9g};", "double phi=(1+sqrt(5))/2;"]
     for i, name in enumerate(names):
-        lines.append(f"poly {name}=" + "".join(f"+({axes[j][i] * unit:.17g})*{axis}" for j, axis in enumerate("xyz")) + ";")
+        lines.append(
+            f"poly {name}=" + "".join(f"+({axes[j][i] * unit:.17g})*{axis}" for j, axis in enumerate("xyz")) + ";"
+        )
     formula = re.sub(r"\b[xyz]\b", lambda found: names["xyz".index(found[0])], surface.formula)
     lines += [f"surface={formula};", *_light(), "draw_surface;"]
     lines += [f'filename="{picture}";', "color_file_format=ppm;", "save_color_image;"]

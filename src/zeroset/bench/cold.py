@@ -73,28 +73,32 @@ def measure_command(
         ZerosetError: the command failed.
     """
     item = entry(name)
-    environment = dict(os.environ)
-    environment.pop("ZEROSET_CACHE", None)
-    # A package that runs from its sources, uninstalled, must be found by the new process too.
-    environment["PYTHONPATH"] = os.pathsep.join(path for path in sys.path if path)
+    surroundings = environment()
     if threads is not None:
-        environment["ZEROSET_THREADS"] = str(threads)
+        surroundings["ZEROSET_THREADS"] = str(threads)
     python: list[float] = []
     cold: list[float] = []
     warm: list[float] = []
     with tempfile.TemporaryDirectory(prefix="zeroset-bench-") as folder:
         line = command_line(item, size, Path(folder) / "picture.png", options)
         for i in range(runs):
-            environment["ZEROSET_CACHE_DIR"] = str(Path(folder) / f"cache{i}")
+            surroundings["ZEROSET_CACHE_DIR"] = str(Path(folder) / f"cache{i}")
             for j, (kind, command) in enumerate(((python, [sys.executable, "-c", ""]), (cold, line), (warm, line))):
                 progress((i + j / 3) / runs)
-                kind.append(_seconds(command, environment))
+                kind.append(_seconds(command, surroundings))
     return CommandCost(name, size, runs, *map(statistics.median, (cold, warm, python)))
 
 
-def _seconds(command: Sequence[str], environment: dict[str, str]) -> float:
+def environment() -> dict[str, str]:
+    """This process's environment for one that is to run the same zeroset, with its cache switched on."""
+    inherited = {name: value for name, value in os.environ.items() if name != "ZEROSET_CACHE"}
+    # A package that runs from its sources, uninstalled, must be found by the new process too.
+    return inherited | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
+
+
+def _seconds(command: Sequence[str], surroundings: dict[str, str]) -> float:
     begin = time.perf_counter()
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, env=surroundings, capture_output=True, text=True, check=False)
     taken = time.perf_counter() - begin
     if done.returncode:
         raise ZerosetError(f"the command that is timed failed: {done.stderr.strip() or done.returncode}")

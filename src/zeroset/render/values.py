@@ -23,8 +23,12 @@ Floats = npt.NDArray[Any]
 def stored(exact: npt.NDArray[np.float64], type_: Type) -> tuple[Floats, Floats]:
     """Numbers in a scalar type, and bounds of what that leaves out, rounded up; exactly stored ones have 0."""
     near = exact.astype(type_.dtype)
-    error = np.abs(exact - near.astype(np.float64)).astype(type_.dtype)
-    return near, np.where(error > 0, np.nextafter(error, type_.dtype.type(np.inf)), type_.dtype.type(0))
+    left_out = np.abs(exact - near.astype(np.float64))
+    error = np.nextafter(left_out.astype(type_.dtype), type_.dtype.type(np.inf))
+    # What is too small for a normal number may be flushed to zero, the value as well as its error.
+    smallest = np.finfo(type_.dtype).tiny
+    lost = (left_out > 0) | ((exact != 0) & (np.abs(exact) < smallest))
+    return near, np.where(lost, np.maximum(error, smallest), type_.dtype.type(0))
 
 
 def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32) -> dict[str, float]:

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 from zeroset.arith import AffineSystem, Format, IntervalSystem
 from zeroset.errors import MethodError
-from zeroset.solve.method import Method, register
+from zeroset.solve.method import Method, register, uniform
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
 from zeroset.solve.systems import automatic_system
@@ -25,11 +25,13 @@ class _Bisection(Method):
 
     Attributes:
         axis: ``"t"`` bisects the ray parameter, ``"k"`` the dominant axis.
+        delta: where above 0, bisection goes on until f itself is enclosed to this width (K09 section 6.1.2).
     """
 
     certified: ClassVar[bool] = True
 
     axis: str = "t"
+    delta: float = uniform(0.0)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -42,7 +44,7 @@ class _Bisection(Method):
 
     def trace(self, problem: Problem) -> Answer:
         walk: Walk = AxisBisecting() if self.axis == "k" else Bisecting()
-        return search(problem, self.system(problem.fmt), walk)
+        return search(problem, self.system(problem.fmt), walk, delta=self.option(problem, "delta"))
 
 
 @register

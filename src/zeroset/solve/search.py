@@ -38,6 +38,7 @@ class Look:
         right: every root is at or before it.
         before: sign of f on [a, left), or on [a, b] where that is excluded.
         after: sign of f on (right, b].
+        width: how wide the enclosure of f is.
     """
 
     excluded: Value
@@ -47,6 +48,7 @@ class Look:
     right: Value
     before: Value
     after: Value
+    width: Value
 
 
 def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
@@ -57,14 +59,16 @@ def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
     f = problem.lowered.along(system, problem.ray, stretch(system, middle, half))
     excluded = ~f.contains_zero()
     one = problem.number(1.0)
-    sign = (problem.lift(f.interval().lo) > 0.0).select(one, -one)
+    bounds = f.interval()
+    width = problem.lift(bounds.hi) - problem.lift(bounds.lo)
+    sign = (problem.lift(bounds.lo) > 0.0).select(one, -one)
     if not isinstance(f, AffineForm):
-        return Look(excluded, False, f.defined, a, b, sign, sign)
+        return Look(excluded, False, f.defined, a, b, sign, sign, width)
     cut = f.contract()
     left = problem.lift(cut.low).fma(half, middle).maximum(a)
     right = problem.lift(cut.high).fma(half, middle).minimum(b)
     after = cut.rising.select(one, -one)
-    return Look(excluded, cut.crosses, f.defined, left, right, excluded.select(sign, -after), after)
+    return Look(excluded, cut.crosses, f.defined, left, right, excluded.select(sign, -after), after, width)
 
 
 def stretch(system: Any, middle: Value, half: Value) -> Any:
@@ -85,8 +89,19 @@ class _Zone:
         return self.sign, self.count, self.start, self.whole
 
 
-def search(problem: Problem, system: Any, walk: Walk, wanted: Value | None = None) -> Answer:
-    """The first root along the ray, with proof; lanes that are not ``wanted`` do nothing. See the module's text."""
+def search(
+    problem: Problem, system: Any, walk: Walk, wanted: Value | None = None, delta: Value | None = None
+) -> Answer:
+    """The first root along the ray, with proof; see the module's text.
+
+    Args:
+        problem: the ray.
+        system: encloses f.
+        walk: which interval is looked at next.
+        wanted: lanes that shall search; the others do nothing.
+        delta: where above 0, an interval counts as narrowest only once f is enclosed to this width (K09 6.1.2), or
+            the walk cannot go deeper.
+    """
     first = walk.start(problem)
     n = len(first)
     none = constant(0, U32)
@@ -99,7 +114,7 @@ def search(problem: Problem, system: Any, walk: Walk, wanted: Value | None = Non
         return state[n]
 
     def turn(*state: Value) -> State:
-        found, place, zone = _turn(problem, system, walk, state[:n], _Zone(*state[n + 1 : n + 5]))
+        found, place, zone = _turn(problem, system, walk, delta, state[:n], _Zone(*state[n + 1 : n + 5]))
         over = found.status.ne(MISS) | walk.ended(problem, place)
         return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, found.start
 
@@ -115,7 +130,9 @@ class _Found:
     start: Value
 
 
-def _turn(problem: Problem, system: Any, walk: Walk, place: State, zone: _Zone) -> tuple[_Found, State, _Zone]:
+def _turn(
+    problem: Problem, system: Any, walk: Walk, delta: Value | None, place: State, zone: _Zone
+) -> tuple[_Found, State, _Zone]:
     """One evaluation and what follows from it."""
     a, b = walk.interval(problem, place)
     seen = look(problem, system, a, b)
@@ -123,6 +140,8 @@ def _turn(problem: Problem, system: Any, walk: Walk, place: State, zone: _Zone) 
     excluded = seen.excluded | skipped
     # The form's error shrinks with the square of the width that is looked at: a cut alone is no reason to give up.
     narrowest = walk.narrowest(problem, place, b - a) & ~excluded
+    if delta is not None:
+        narrowest = narrowest & ((seen.width <= delta) | (delta <= 0.0) | walk.deepest(place))
     proven = seen.crosses & (seen.right - seen.left <= problem.tolerance)
     in_zone = zone.count > 0
     cut = ~excluded & (seen.left > a)

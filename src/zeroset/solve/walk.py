@@ -11,10 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from zeroset.kernel import F32, I32, U32, Value, constant
+from zeroset.kernel import BOOL, F32, I32, U32, Value, constant
 from zeroset.solve.problem import Problem
 
 State = tuple[Value, ...]
+DEEPEST = 22
+"""Depth of the dyadic trees: places k < 2^23 are exact in f32."""
 
 
 class Walk(Protocol):
@@ -34,6 +36,9 @@ class Walk(Protocol):
 
     def narrowest(self, problem: Problem, state: State, width: Value) -> Value:
         """Whether an interval of this width, in this state, is not to be narrowed further."""
+
+    def deepest(self, state: State) -> Value:
+        """Whether the walk cannot narrow any further, whatever is asked for."""
 
     def ended(self, problem: Problem, state: State) -> Value:
         """Whether the stretch is used up."""
@@ -63,6 +68,10 @@ class Striding:
         # b = a + h is rounded, so the narrowest step may come out a little wider than the tolerance.
         return width <= problem.tolerance * 1.25
 
+    def deepest(self, state: State) -> Value:
+        # A stride never falls below the tolerance.
+        return constant(True, BOOL)
+
     def ended(self, problem: Problem, state: State) -> Value:
         return state[0] >= problem.t1
 
@@ -74,8 +83,8 @@ def _place(problem: Problem, k: Value, d: Value) -> Value:
 
 
 def _depth(length: Value, tolerance: Value) -> Value:
-    """K09 eq. 16: how many bisections bring ``length`` under the tolerance, at most 22 so that places stay exact."""
-    bits = (length / tolerance).maximum(1.0).minimum(4194304.0).convert(F32).bitcast(I32)
+    """K09 eq. 16: how many bisections bring ``length`` under the tolerance, at most DEEPEST."""
+    bits = (length / tolerance).maximum(1.0).minimum(2.0**DEEPEST).convert(F32).bitcast(I32)
     return ((bits + 0x007FFFFF) >> 23) - 127
 
 
@@ -111,6 +120,9 @@ class Bisecting:
 
     def narrowest(self, problem: Problem, state: State, width: Value) -> Value:
         return state[1] >= _depth(problem.t1 - problem.t0, problem.tolerance)
+
+    def deepest(self, state: State) -> Value:
+        return state[1] >= DEEPEST
 
     def ended(self, problem: Problem, state: State) -> Value:
         return state[1].eq(0) & (state[0] > 0)
@@ -169,7 +181,10 @@ class AxisBisecting:
         return k << 1, d + 1
 
     def narrowest(self, problem: Problem, state: State, width: Value) -> Value:
-        return (width <= problem.tolerance) | (state[1] >= 22)
+        return (width <= problem.tolerance) | (state[1] >= DEEPEST)
+
+    def deepest(self, state: State) -> Value:
+        return state[1] >= DEEPEST
 
     def ended(self, problem: Problem, state: State) -> Value:
         return state[1].eq(0) & (state[0] > 0)

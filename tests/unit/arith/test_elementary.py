@@ -50,7 +50,7 @@ def dense(name):
 def allowed(name, fmt, x, value):
     bound = error_bound(name, fmt)
     slope = bound.slope * abs(x) * (1 + value**2 if name == "tan" else 1)
-    return bound.relative * fmt.eps * abs(value) + bound.absolute + slope
+    return bound.relative * fmt.eps * abs(value) + bound.absolute + slope + 2 * fmt.quantum
 
 
 @pytest.mark.parametrize("kind", [np.asarray, Fused, Flushed], ids=["plain", "fused", "flushed"])

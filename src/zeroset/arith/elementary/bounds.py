@@ -2,10 +2,11 @@
 
 For every x in the stated domain the computed value v of f(x) satisfies, whether multiply-adds are fused or not,
 
-    |v - f(x)| <= relative * eps * |v| + absolute + slope * |x|.
+    |v - f(x)| <= relative * eps * |v| + absolute + slope * |x| + 2 quantum.
 
 ``relative`` bounds the roundings of the code as written plus the error of the polynomial; ``absolute`` is what clamping
-an argument can cost; ``slope`` what the reduction by multiples of pi/2 lost.
+an argument can cost; ``slope`` what the reduction by multiples of pi/2 lost; the smallest normal number, ``quantum``,
+stands for flushed subnormals.
 """
 
 from __future__ import annotations

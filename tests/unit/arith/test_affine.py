@@ -1,0 +1,171 @@
+"""Affine forms hold the truth at every point of their symbols, and shrink as they should."""
+
+import flint
+import numpy as np
+import pytest
+
+from zeroset.arith import F32, F64, AffineSystem
+from zeroset.arith.budget import repaid
+
+from .scalars import Flushed, Fused, plain
+from .truth import PRECISION, boxes, cases, outside, within
+
+CASES = cases()
+COUNT = 50
+
+
+def spread(scalar, count):
+    return np.broadcast_to(plain(scalar), count).astype(np.float64)
+
+
+def argument(system, index, lo, hi, kind):
+    centre = (0.5 * lo + 0.5 * hi).astype(lo.dtype)
+    return system.symbol(index, kind(centre), kind(np.maximum(hi - centre, centre - lo)))
+
+
+@pytest.mark.parametrize("intersect", [False, True], ids=["form", "with-interval"])
+@pytest.mark.parametrize("kind", [np.asarray, Fused, Flushed], ids=["plain", "fused", "flushed"])
+@pytest.mark.parametrize("name", CASES)
+def test_holds_the_truth_f32(name, kind, intersect):
+    holds(name, F32, kind, intersect)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_holds_the_truth_f64(name):
+    holds(name, F64, np.asarray, intersect=False)
+
+
+def holds(name, fmt, kind, intersect):
+    arity, call, truth = CASES[name]
+    system = AffineSystem(fmt, symbols=3 if arity == 2 else 1, intersect=intersect)
+    ends = [boxes(fmt.dtype, COUNT, seed=i + 20 * arity) for i in range(arity)]
+    with np.errstate(all="ignore"):
+        numbers = [argument(system, i, *pair, kind) for i, pair in enumerate(ends)]
+        result = call(*numbers)
+        reach = spread(repaid(fmt, result.error, result.budget.depth), COUNT)
+        box = result.interval()
+    low, high, centre = spread(box.lo, COUNT), spread(box.hi, COUNT), spread(result.centre, COUNT)
+    terms = [spread(u, COUNT) for u in result.terms]
+    defined, empty = spread(result.defined, COUNT), spread(result.empty, COUNT)
+    middles = [spread(x.centre, COUNT) for x in numbers]
+    radii = [spread(x.terms[i], COUNT) for i, x in enumerate(numbers)]
+    checked = 0
+    for symbols in positions(arity):
+        with flint.ctx.workprec(PRECISION):
+            for i in range(COUNT):
+                point = [flint.arb(c[i]) + flint.arb(r[i]) * e for c, r, e in zip(middles, radii, symbols, strict=True)]
+                value = truth(*point)
+                if value is None or not value.is_finite():
+                    assert not defined[i] or value is not None, (name, middles, radii)
+                    continue
+                assert not empty[i]
+                if not within(value, fmt.big) or not all(within(p, fmt.big) for p in point):
+                    continue
+                where = (name, [(c[i], r[i], e) for c, r, e in zip(middles, radii, symbols, strict=True)], float(value))
+                assert not outside(value, low[i], high[i]), where
+                line = flint.arb(centre[i])
+                for u, e in zip(terms, symbols, strict=False):
+                    line += flint.arb(u[i]) * e
+                assert not abs(value - line) > flint.arb(reach[i]), where
+                checked += 1
+    assert checked > COUNT
+
+
+def positions(arity):
+    generator = np.random.default_rng(arity)
+    corners = [(-1.0,), (1.0,), (0.0,)] if arity == 1 else [(-1.0, 1.0), (1.0, 1.0)]
+    return [*corners, *(tuple(generator.uniform(-1, 1, arity).tolist()) for _ in range(2))]
+
+
+CURVED = {
+    "sqr": (0.3, 2.0), "sqrt": (0.7, 0.25), "exp": (0.4, 1.0), "log": (0.6, 1.0), "sin": (0.9, 1.0), "cos": (0.9, 1.0),
+    "tan": (0.7, 2.0), "asin": (0.4, 1.0), "acos": (0.4, 1.0), "atan": (0.8, 1.0), "sinh": (0.8, 1.0),
+    "cosh": (0.5, 1.0), "tanh": (0.6, 1.0), "cbrt": (0.7, 1.0), "powi-1": (0.8, 2.0), "powr3/2": (0.6, 1.0),
+}  # fmt: skip
+
+
+def curvature(name, at):
+    """f'' at a point, by ball arithmetic."""
+    truth = CASES[name][2]
+    with flint.ctx.workprec(400):
+        h = flint.arb(2) ** -60
+        x = flint.arb(at)
+        return abs(float((truth(x + h) - 2 * truth(x) + truth(x - h)) / h**2))
+
+
+@pytest.mark.parametrize("fmt", [F32, F64], ids=["f32", "f64"])
+@pytest.mark.parametrize("name", CURVED)
+def test_error_is_the_least_a_line_of_that_slope_can_have(name, fmt):
+    at, call = fmt.round(CURVED[name][0]), CASES[name][1]
+    for radius in (2.0**-10, 2.0**-6, 2.0**-4):
+        result = call(AffineSystem(fmt).symbol(0, at, radius))
+        error = repaid(fmt, result.error, result.budget.depth)
+        # A quadratic leaves the line by f'' r**2/2 on one side, half of it on either side of a shifted one.
+        ideal = curvature(name, at) * radius**2 / 4
+        assert 0.9 * ideal < error < 1.35 * ideal + 16 * fmt.eps * abs(result.centre)
+
+
+@pytest.mark.parametrize("intersect", [False, True])
+@pytest.mark.parametrize("name", ["sqrt", "log", "asin", "tan", "exp", "sin", "cbrt", "powi-1", "powr3/2"])
+def test_wide_arguments_are_as_good_as_intervals(name, intersect):
+    system = AffineSystem(F64, intersect=intersect)
+    for lo, hi in ((0.001, 0.9), (-0.5, 0.9), (0.25, 30.0), (-4.0, 9.0)):
+        x = system.symbol(0, (lo + hi) / 2, (hi - lo) / 2)
+        with np.errstate(all="ignore"):
+            form = CASES[name][1](x).interval()
+            plain_range = CASES[name][1](x.interval())
+        width, ideal = form.hi - form.lo, plain_range.hi - plain_range.lo
+        assert width <= (1.0001 if intersect else 2.1) * ideal + 1e-9
+
+
+def test_linear_dependence_cancels():
+    system = AffineSystem(F64)
+    x = system.symbol(0, 1.0, 0.5)
+    assert (x - x).interval().hi < 1e-13
+    assert (2.0 * x - x - x).interval().lo > -1e-13
+    square = (x.sqr() - x).interval()
+    assert (square.lo, square.hi) == pytest.approx((-0.25, 0.75), abs=0.26)
+    assert (x * x).error == pytest.approx(2 * x.sqr().error)
+
+
+def test_three_symbols_stay_apart():
+    system = AffineSystem(F64, symbols=3)
+    x, y, z = (system.symbol(i, 1.0, 0.25) for i in range(3))
+    total = x + 2.0 * y - z
+    assert total.terms == (0.25, 0.5, -0.25)
+    assert total.interval().hi == pytest.approx(3.0)
+    assert (x * y).terms == (0.25, 0.25, 0.0)
+
+
+@pytest.mark.parametrize("kind", [np.asarray, Fused, Flushed], ids=["plain", "fused", "flushed"])
+@pytest.mark.parametrize("credit", [0, 1])
+def test_rounding_is_never_forgotten(kind, credit):
+    """Without any width, all that is left is rounding: the exact value must still be inside."""
+    system = AffineSystem(F32)
+    generator = np.random.default_rng(2)
+    a, b, c = (generator.uniform(-2, 2, 500).astype(np.float32) for _ in range(3))
+
+    def polynomial(x, y, z):
+        return ((x * y - z).sqr() * (x + y * z) - (x.sqr() + y.sqr() + z.sqr()).sqr()) * (z - x * x * x) + x.sqr().sqr()
+
+    numbers = [system.exact(kind(v)) for v in (a, b, c)]
+    if credit:
+        numbers = [x * 1.0 + system.constant(0.0, 0.0) + 2.0 - 2.0 for x in numbers]
+    result = polynomial(*numbers)
+    box = result.interval()
+    low, high = plain(box.lo), plain(box.hi)
+    for i in range(500):
+        exact = polynomial(*(flint.fmpq(*float(v[i]).as_integer_ratio()) for v in (Rational(a), Rational(b), Rational(c))))
+        value = flint.arb(exact.number)
+        assert not outside(value, low[i], high[i])
+    assert np.median(high - low) < 200 * F32.eps * 20
+
+
+class Rational:
+    """Exact rationals with the few methods that the formula above uses."""
+
+    def __init__(self, number):
+        self.number = number
+
+    def __getitem__(self, i):
+        return self.number[i]
