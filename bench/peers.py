@@ -68,6 +68,7 @@ def _options() -> argparse.Namespace:
     )
     parser.add_argument("--size", type=int, default=1024, help="pixels a side")
     parser.add_argument("--rounds", type=int, default=3, help="turns of each program")
+    parser.add_argument("--longest", type=float, default=600.0, help="seconds after which a peer is stopped")
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
     parser.add_argument(
         "--trial", type=Path, default=TRIAL, help="script of the design's trial, timed where it is there"
@@ -87,7 +88,7 @@ def _one_core() -> None:
 
 
 def _compare(case: Case, options: argparse.Namespace) -> list[tuple[str, ...]]:
-    competitors = programs.programs(case, options.size, options.folder)
+    competitors = programs.programs(case, options.size, options.folder, options.longest)
     if case.name == "barth-sextic" and options.trial.exists():
         competitors.append(programs.trial(options.trial))
     for i in range(options.rounds):
@@ -101,15 +102,17 @@ def _compare(case: Case, options: argparse.Namespace) -> list[tuple[str, ...]]:
 
 
 def _row(case: Case, program: programs.Program, frame: float, warm: float, truth: np.ndarray) -> tuple[str, ...]:
-    if program.failure or not program.seconds:
-        return (case.name, program.name, "-", "-", "-", "-", "-", "-", program.failure)
+    note = "; ".join(filter(None, (program.note, program.failure)))
+    if not program.seconds:
+        return (case.name, program.name, "-", "-", "-", "-", "-", "-", note)
     other = "-"
-    if program.picture is not None:
+    if program.picture is not None and not program.failure:
         other = f"{np.mean(programs.silhouette(program.picture) != truth):.3%}"
-    times = (f"{value:.4f}" for value in (program.median, min(program.seconds)))
+    more = "> " if program.endless else ""
+    times = (f"{more}{value:.4f}" for value in (program.median, min(program.seconds)))
     inner = f"{np.median(program.inner):.3f}" if program.inner else "-"
-    ratios = (f"{program.median / value:.2f}" for value in (frame, warm))
-    return (case.name, program.name, *times, inner, *ratios, other, program.note)
+    ratios = (f"{more}{program.median / value:.2f}" for value in (frame, warm))
+    return (case.name, program.name, *times, inner, *ratios, other, note)
 
 
 if __name__ == "__main__":

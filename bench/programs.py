@@ -25,8 +25,6 @@ import zeroset as zs
 from zeroset.bench.cold import START, environment
 from zeroset.scene.file import save
 
-LONGEST = 600.0
-"""Seconds after which a program is given up."""
 FRAMES_FOR = 0.5
 """Seconds of frames in each round."""
 
@@ -42,7 +40,8 @@ class Program:
         note: what the reader should know.
         seconds: of all runs so far.
         inner: seconds of rendering alone, where the program says so.
-        failure: why it was given up, or an empty string.
+        failure: why there is no picture, or an empty string.
+        endless: whether it was stopped; ``seconds`` then holds what it was given.
     """
 
     name: str
@@ -52,13 +51,17 @@ class Program:
     seconds: list[float] = field(default_factory=list)
     inner: list[float] = field(default_factory=list)
     failure: str = ""
+    endless: bool = False
 
     def take_turn(self) -> None:
-        """Run once and note the time, or the failure."""
+        """Run once and note the time, or the failure; what failed once is not tried again."""
         if self.failure:
             return
         try:
             self.seconds += self.run(self)
+        except subprocess.TimeoutExpired as error:
+            self.seconds, self.endless = [error.timeout], True
+            self.failure = "stopped before it had a picture"
         except (OSError, subprocess.SubprocessError, ValueError) as error:
             self.failure = str(error).splitlines()[0][:200]
 
@@ -68,12 +71,19 @@ class Program:
         return statistics.median(self.seconds or [math.nan])
 
 
-def programs(case: Case, size: int, folder: Path) -> list[Program]:
-    """All programs that are installed and can draw a case; zeroset's own first."""
+def programs(case: Case, size: int, folder: Path, longest: float) -> list[Program]:
+    """All programs that are installed and can draw a case; zeroset's own first.
+
+    Args:
+        case: what to draw.
+        size: pixels along a side.
+        folder: where scenes and pictures are left.
+        longest: seconds after which a peer is stopped.
+    """
     scene_file = folder / f"{case.name}.toml"
     save(case.scene, scene_file)
-    found = [_frame(case, size), _command(scene_file, size, warm=True), _command(scene_file, size, warm=False)]
-    return found + [peer for peer in (_surf(case, size, folder), *_povray(case, size, folder)) if peer is not None]
+    own = [_frame(case, size), _command(scene_file, size, warm=True), _command(scene_file, size, warm=False)]
+    return [*own, *_surf(case, size, folder, longest), *_povray(case, size, folder, longest)]
 
 
 def missing() -> list[str]:
@@ -109,17 +119,18 @@ def _command(scene: Path, size: int, warm: bool) -> Program:
     return Program(f"zeroset, whole process, {'warm' if warm else 'cold'} cache", run, picture)
 
 
-def _surf(case: Case, size: int, folder: Path) -> Program | None:
+def _surf(case: Case, size: int, folder: Path, longest: float) -> list[Program]:
     picture = folder / f"{case.name}-surf.ppm"
     text = surf.script(case, size, picture)
     if text is None or shutil.which("surf-alggeo") is None:
-        return None
+        return []
     file = folder / f"{case.name}.pic"
     file.write_text(text)
-    return Program("surf, whole process", _drawing(["surf-alggeo", "-q", str(file)], picture), picture)
+    drawing = _drawing(["surf-alggeo", "-q", str(file)], picture, longest)
+    return [Program("surf, whole process", drawing, picture)]
 
 
-def _povray(case: Case, size: int, folder: Path) -> list[Program]:
+def _povray(case: Case, size: int, folder: Path, longest: float) -> list[Program]:
     kinds = {"polynomial": pov.polynomial_scene(case), "isosurface": pov.isosurface_scene(case)}
     found = []
     for kind, text in kinds.items():
@@ -130,14 +141,14 @@ def _povray(case: Case, size: int, folder: Path) -> list[Program]:
         picture = folder / f"{case.name}-pov-{kind}.png"
         line = ["povray", f"+I{file}", f"+O{picture}", f"+W{size}", f"+H{size}", "+FN", "-D", "-A", "+WT1"]
         note = f"max_gradient {case.max_gradient:g}" if kind == "isosurface" else ""
-        found.append(Program(f"POV-Ray {kind}, whole process", _drawing(line, picture), picture, note))
+        found.append(Program(f"POV-Ray {kind}, whole process", _drawing(line, picture, longest), picture, note))
     return found
 
 
-def _drawing(line: list[str], picture: Path) -> Callable[[Program], list[float]]:
+def _drawing(line: list[str], picture: Path, longest: float) -> Callable[[Program], list[float]]:
     def run(program: Program) -> list[float]:
         picture.unlink(missing_ok=True)
-        seconds, said = _process(line)
+        seconds, said = _process(line, longest)
         if not picture.exists():
             raise ValueError(f"no picture: {said.strip()[-200:]}")
         if found := re.search(r"Trace Time:.*\(([\d.]+) seconds\)", said):
@@ -160,7 +171,7 @@ def trial(script: Path) -> Program:
     return Program("the design's trial, a frame", run, note="best of 10, its own view, 1024²")
 
 
-def _process(line: list[str], **more: str) -> tuple[float, str]:
+def _process(line: list[str], longest: float | None = None, **more: str) -> tuple[float, str]:
     """Seconds of a process, and all that it printed."""
     begin = time.perf_counter()
     done = subprocess.run(
@@ -168,7 +179,7 @@ def _process(line: list[str], **more: str) -> tuple[float, str]:
         env=environment() | more,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        timeout=LONGEST,
+        timeout=longest,
         check=False,
     )
     seconds = time.perf_counter() - begin

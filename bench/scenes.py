@@ -101,7 +101,7 @@ CASES = (
             "*(SQ(x*x) + SQ(y*y) + SQ(z*z) - 2*x*x*y*y - 2*x*x*z*z - 2*y*y*z*z)"
             " + (3 + 5*P)*SQ(x*x + y*y + z*z - 1)*SQ(x*x + y*y + z*z - 2 + P)"
         ),
-        max_gradient=1024,
+        max_gradient=8192,
         declarations=_PHI,
     ),
     Case(
@@ -112,7 +112,7 @@ CASES = (
         radius=1.75,
         container=_CUBE,
     ),
-    Case("blinn-blobby-30", _blobs, max_gradient=64),
+    Case("blinn-blobby-30", _blobs, max_gradient=32),
     Case(
         "clebsch",
         _fixed(
@@ -124,6 +124,6 @@ CASES = (
     Case(
         "kummer",
         _fixed("x*x*x*x + y*y*y*y + z*z*z*z - x*x - y*y - z*z - x*x*y*y - y*y*z*z - z*z*x*x + 1"),
-        max_gradient=64,
+        max_gradient=32,
     ),
 )

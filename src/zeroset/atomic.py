@@ -26,7 +26,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[IO[bytes]]:
         OutputError: the folder is missing or cannot be written, the disk is full, or ``path`` is a folder.
     """
     check_writable(path)
-    try:
+    with _told_of(path):
         target = Path(os.path.realpath(path))
         beside = target.parent / f".zeroset-{secrets.token_hex(6)}.part"
         place = beside if target.is_file() or not target.exists() else target
@@ -37,10 +37,17 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[IO[bytes]]:
                 if target.exists():
                     os.chmod(beside, target.stat().st_mode & 0o7777)
                 os.replace(beside, target)
-    except OSError as error:
-        if isinstance(error, OutputError):
-            raise
-        reason = error.strerror or str(error)
+
+
+@contextlib.contextmanager
+def _told_of(path: str | os.PathLike[str]) -> Iterator[None]:
+    """What the system refuses becomes an ``OutputError`` that names the path as the user wrote it."""
+    try:
+        yield
+    except OutputError:
+        raise
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise OutputError(f"cannot write {os.fspath(path)!r}: {reason}", hint="choose another place") from None
 
 
@@ -62,7 +69,7 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
         OutputError: it is a folder, or its folder is missing or closed to writing.
     """
     shown = os.fspath(path)
-    try:
+    with _told_of(path):
         target = Path(os.path.realpath(path))
         if target.is_dir():
             raise OutputError(f"cannot write {shown!r}: it is a folder", hint="give a file name inside it")
@@ -70,6 +77,4 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
             raise OutputError(f"cannot write {shown!r}: there is no folder {str(target.parent)!r}")
         if not os.access(target if target.exists() else target.parent, os.W_OK):
             raise OutputError(f"cannot write {shown!r}: permission denied", hint="choose another place")
-    except ValueError:
-        raise OutputError(f"cannot write {shown!r}: no file can have that name") from None
     return Path(path)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from zeroset.arith import scalar as s
@@ -27,6 +26,7 @@ _PRODUCT = 2.0
 _SQUARE = 2.0
 _RADIUS_SHARE = 16.0
 _FLUSHED = 16.0
+_AFTER_CONSTANT = 2.1
 
 
 def neg(a: Affine) -> Affine:
@@ -73,13 +73,12 @@ def _with_flags_of(kept: Affine, dropped: Affine) -> Affine:
 
 
 def _matched(a: Affine, b: Affine) -> Affine:
-    """A constant with as much credit as its partner, which costs nothing while tracing."""
-    if not a.is_constant or a.budget.credit >= b.budget.credit:
+    """A constant with credit for this sum and for a square or product after it, which costs nothing while tracing."""
+    wanted = min(b.budget.credit, _AFTER_CONSTANT)
+    if not a.is_constant or a.budget.credit >= wanted:
         return a
-    error, budget = bought(a.fmt, a.centre, a.terms, a.error, a.budget)
-    missing = max(0.0, b.budget.credit - budget.credit)
-    error += MARGIN * missing * a.fmt.eps * (abs(a.centre) + error)
-    return a.make(a.centre, a.terms, error, replace(budget, credit=budget.credit + missing), bounds=a.bounds)
+    error, budget = bought(a.fmt, a.centre, a.terms, a.error, a.budget, stock=wanted)
+    return a.make(a.centre, a.terms, error, budget, bounds=a.bounds)
 
 
 def mul(a: Affine, b: Affine) -> Affine:

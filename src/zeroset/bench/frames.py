@@ -85,6 +85,11 @@ def measure(surface: Surface, sizes: Sequence[int], method: str, devices: Device
     return SurfaceCost(surface.name, compiled, loaded, frames)
 
 
+def warm_up(devices: Devices, method: str) -> None:
+    """Draw a ball that nobody measures, so that what is loaded once for all surfaces is charged to none."""
+    render("x^2 + y^2 + z^2 = 1", SMALL, method=method, device=devices.fresh(Cache(None)))
+
+
 def _making(surface: Surface, method: str, devices: Devices) -> tuple[float, float | None]:
     """Milliseconds to compile everything without a cache, and to have it from one."""
     with tempfile.TemporaryDirectory(prefix="zeroset-bench-") as folder:

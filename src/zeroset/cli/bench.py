@@ -83,11 +83,12 @@ def _collect(wish: Wish, devices: Devices) -> tuple[list[Cost], bool]:
 
 
 def _frames(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
-    from zeroset.bench.frames import measure
+    from zeroset.bench.frames import measure, warm_up
     from zeroset.shelf import gallery
 
     names = wish.names or tuple(gallery)
     surfaces = [gallery[name] for name in names]
+    warm_up(devices, wish.method)
     for i, surface in enumerate(surfaces):
         progress(i / len(surfaces))
         yield measure(surface, wish.sizes or (512, 1024), wish.method, devices, wish.seconds)

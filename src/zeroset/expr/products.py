@@ -1,8 +1,8 @@
 """Rewriting of products and quotients.
 
 Signs and rational factors move to the front; equal factors become one power, so that a variable occurs once
-(`x*y*x` is `x^2*y`) and even powers stay visible. Powers never cancel against a quotient: x^2/x is not x,
-for it is undefined at zero. A factor 0 swallows only what is defined everywhere.
+(`x*y*x` is `x^2*y`) and even powers stay visible; x/y/z becomes x/(y*z). Powers never cancel against a quotient:
+x^2/x is not x, for it is undefined at zero. A factor 0 swallows only what is defined everywhere.
 """
 
 from __future__ import annotations
@@ -75,6 +75,8 @@ def div(a: Expr, b: Expr) -> Expr:
         if divisor == 0:
             raise FormulaError("division by zero", hints=("nothing can be divided by zero",))
         return mul(constant(1 / divisor), a)
+    if a.op == "div":
+        return div(a.args[0], mul(a.args[1], b))
     value = rational(a)
     if value == 0:
         return ZERO if b.is_total and b.is_positive else _scale(value, div(ONE, b))

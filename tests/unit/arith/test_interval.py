@@ -188,11 +188,14 @@ def test_zero_is_excluded_only_for_certain():
 
 def test_overflow_stays_finite_and_claims_nothing():
     wide = system(F32).bounds(np.float32([1e20]), np.float32([2e20]))
-    for huge in (wide.sqr(), wide * wide, wide.powi(5), wide.exp(), wide.cosh()):
-        assert huge.hi[0] >= F32.big * (1 - 1e-6) or huge.hi[0] >= 4e40
-        assert np.isfinite(huge.lo[0])
-        assert huge.lo[0] > 1e33
-    assert wide.powi(5).neg().lo[0] <= -F32.big
+    with np.errstate(over="ignore"):
+        results = [wide.sqr(), wide * wide, wide.powi(5), wide.exp(), wide.cosh()]
+    for huge in results:
+        assert huge.hi[0] >= F32.big
+        assert huge.hi[0] < np.inf
+        # What is certain about the lower end: the truth is above big.
+        assert 0.999 * F32.big < huge.lo[0] <= F32.big
+    assert results[2].neg().lo[0] <= -F32.big
 
 
 def test_constants_are_enclosed_in_the_format():

@@ -130,5 +130,5 @@ def test_what_is_shared_too_often_is_refused_not_written():
 
 
 def test_long_sums_are_written_in_linear_memory():
-    f = parse("+".join(f"sin({i}x)" for i in range(2, 9_000)))
+    f = parse("+".join(f"sin({i}x)" for i in range(2, 7_000)))
     assert parse(text(f)) is f

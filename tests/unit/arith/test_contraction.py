@@ -1,0 +1,93 @@
+"""Contracting a symbol loses no zero, and a proven change of sign is one."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from zeroset.arith import F32, F64, AffineSystem
+from zeroset.arith.flags import Flags
+
+from .scalars import Flushed, Fused, plain
+
+
+def quintic(t, roots):
+    value = (t - roots[0]) * (t - roots[1]) * ((t - roots[2]) ** 2 + 0.25)
+    return value * 0.5
+
+
+@pytest.mark.parametrize("kind", [np.asarray, Fused, Flushed], ids=["plain", "fused", "flushed"])
+@pytest.mark.parametrize("intersect", [False, True])
+def test_no_zero_is_lost(kind, intersect):
+    generator = np.random.default_rng(8)
+    count, roots = 4000, (0.25, 1.5, -0.75)
+    width = (10.0 ** generator.uniform(-7, 0.3, count)).astype(np.float32)
+    place = generator.uniform(-1.2, 1.2, count)
+    centre = (0.25 + place * width).astype(np.float32)
+    t = AffineSystem(F32, intersect=intersect).symbol(0, kind(centre), kind(width))
+    found = quintic(t, roots).contract()
+    excluded, crosses = plain(found.excluded), plain(found.crosses)
+    low, high = plain(found.low).astype(float), plain(found.high).astype(float)
+    at = [(root - centre.astype(float)) / width.astype(float) for root in roots[:2]]
+    inside = [abs(e) <= 1 for e in at]
+    for e, here in zip(at, inside, strict=True):
+        assert not excluded[here].any()
+        assert (low[here] <= e[here]).all()
+        assert (e[here] <= high[here]).all()
+    only = inside[0] ^ inside[1]
+    assert not crosses[~only].any()
+    # f rises through 3/2 and falls through 1/4.
+    assert not plain(found.rising)[crosses & inside[0]].any()
+    assert crosses.mean() > 0.3
+    assert excluded[~inside[0] & ~inside[1]].mean() > 0.3
+    assert (high - low)[crosses].mean() < 0.7
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    st.floats(-10, 10, width=32), st.floats(-10, 10, width=32), st.floats(0, 5, width=32), st.sampled_from([F32, F64])
+)
+def test_a_strip_is_cut_where_it_meets_zero(centre, slope, error, fmt):
+    form = AffineSystem(fmt).form(centre, (slope,), error)
+    found = form.contract()
+    assert -1 <= found.low
+    assert found.high <= 1
+    for e in np.linspace(-1, 1, 41).tolist():
+        if abs(centre + slope * e) <= error:
+            assert not found.excluded
+            assert found.low <= e <= found.high
+    if found.crosses:
+        assert (centre - slope) * (centre + slope) < 0
+        assert abs(slope) - error > abs(centre)
+        assert found.rising == (slope > 0)
+
+
+def test_nothing_is_proven_where_f_may_be_undefined():
+    system = AffineSystem(F64)
+    form = system.symbol(0, 0.0, 1.0)
+    assert form.contract().crosses
+    assert not form.make(0.0, (1.0,), 0.0, form.budget, Flags(defined=False)).contract().crosses
+    pole = system.constant(1.0, 1.0) / form
+    assert not pole.contract().crosses
+
+
+def test_other_symbols_count_as_error():
+    system = AffineSystem(F64, symbols=3)
+    form = system.form(0.0, (0.25, 0.5, 1.0))
+    along = form.contract(2)
+    assert along.crosses
+    assert (along.low, along.high) == pytest.approx((-0.75, 0.75))
+    assert not form.contract(0).crosses
+    assert (form.contract(0).low, form.contract(0).high) == (-1.0, 1.0)
+
+
+def test_nan_proves_nothing():
+    bad = np.array([np.nan, 1.0, np.inf, 0.0])
+    for parts in ((bad, np.ones(4), np.zeros(4)), (np.zeros(4), bad, np.zeros(4)), (np.ones(4), np.ones(4), bad)):
+        with np.errstate(all="ignore"):
+            found = AffineSystem(F64).form(parts[0], (parts[1],), parts[2]).contract()
+        unknown = np.isnan(parts[0]) | np.isnan(parts[1]) | np.isnan(parts[2])
+        assert not found.excluded[unknown].any()
+        assert not found.crosses[unknown].any()
+        assert (found.low[unknown] == -1).all()
+        assert (found.high[unknown] == 1).all()
