@@ -68,7 +68,7 @@ def _options() -> argparse.Namespace:
     )
     parser.add_argument("--size", type=int, default=1024, help="pixels a side")
     parser.add_argument("--rounds", type=int, default=3, help="turns of each program")
-    parser.add_argument("--longest", type=float, default=600.0, help="seconds after which a peer is stopped")
+    parser.add_argument("--longest", type=float, default=120.0, help="seconds after which a peer is stopped")
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
     parser.add_argument(
         "--trial", type=Path, default=TRIAL, help="script of the design's trial, timed where it is there"

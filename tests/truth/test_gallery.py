@@ -1,6 +1,6 @@
 """Each gallery surface, each proving method: rays from everywhere, held to first roots that Arb certifies.
 
-``ZEROSET_TRUTH_RAYS`` sets how many rays a surface gets; ``python -m tests.truth`` does the same at length with figures.
+``ZEROSET_TRUTH_RAYS`` sets how many rays a surface gets; ``python -m tests.truth`` does the same at length, in figures.
 """
 
 from __future__ import annotations

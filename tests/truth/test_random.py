@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
 import zeroset as zs
@@ -29,6 +29,8 @@ OTHERS: tuple[Method, ...] = (Interval(), Affine(), Mitchell(), Affine(axis="k")
     derandomize=True,
     deadline=None,
     database=None,
+    # Every example compiles kernels: shrinking a failure would take longer than reading it.
+    phases=[Phase.explicit, Phase.generate],
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
 )
 @given(formula=formulas(), seed=st.integers(0, 2**32 - 1))

@@ -1,9 +1,9 @@
 """Reduced affine arithmetic: a real as centre + terms times shared symbols in [-1, 1] + one error.
 
-AF1 of Messine as Knoll et al. 2009 use it (section 3.3.2 and eq. 15; doi:10.1111/j.1467-8659.2008.01189.x), with one symbol
-for a ray or three for a beam; squares are tight, division and the elementary functions are affine too
-(``linearise``), and rounding is carried in the error through the account of ``budget``. With ``intersect`` an interval goes
-along, and the range is the meet of both (Gamito & Maddock 2007).
+AF1 of Messine as Knoll et al. 2009 use it (section 3.3.2 and eq. 15; doi:10.1111/j.1467-8659.2008.01189.x), with one
+symbol for a ray or three for a beam; squares are tight, division and the elementary functions are affine too
+(``linearise``), and rounding is carried in the error through the account of ``budget``. With ``intersect`` an
+interval goes along, and the range is the meet of both (Gamito & Maddock 2007).
 """
 
 from __future__ import annotations

@@ -133,9 +133,10 @@ def stocked(a: Affine, credit: float) -> Affine:
 def _product(a: Affine, b: Affine) -> Affine:
     """The general product.
 
-    With A = |c_a|, U = sum |u_a|, and B, V alike: c is rounded by eps A B, each term by at most 2 eps (|c_a v| + |c_b u|),
-    together under 2 eps M_a M_b: price 2. A error_b + B error_a + radius_a radius_b exceeds the same with the true errors
-    by k_a eps M_a (B + radius_b) + k_b eps M_b (A + U) and more, that is by (k_a + k_b) eps M_a M_b: the credits add up.
+    With A = |c_a|, U = sum |u_a|, and B, V alike: c is rounded by eps A B, each term by at most 2 eps (|c_a v| + |c_b
+    u|), together under 2 eps M_a M_b: price 2. A error_b + B error_a + radius_a radius_b exceeds the same with the
+    true errors by k_a eps M_a (B + radius_b) + k_b eps M_b (A + U) and more, that is by (k_a + k_b) eps M_a M_b: the
+    credits add up.
     """
     enough = a.budget.credit + b.budget.credit >= MARGIN * _PRODUCT
     a, b = stocked(a, 0.0 if enough else MARGIN), stocked(b, 0.0 if enough else MARGIN)

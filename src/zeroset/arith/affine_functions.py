@@ -1,7 +1,8 @@
 """Division, roots, exponentials and powers of affine forms, each an ``Expansion`` given to ``linearise``.
 
-With p the point of expansion and x = p + d, the remainder f(x) - f(p) - f'(p) d is w d**2; each function here says what w
-is. By Taylor w is the mean of f''/2 between p and x, the end p counting twice: where f'' is convex, w <= f''(p)/3 + f''(x)/6.
+With p the point of expansion and x = p + d, the remainder f(x) - f(p) - f'(p) d is w d**2; each function here says
+what w is. By Taylor w is the mean of f''/2 between p and x, the end p counting twice: where f'' is convex, w <=
+f''(p)/3 + f''(x)/6.
 """
 
 from __future__ import annotations
@@ -76,7 +77,8 @@ def sqrt(a: Affine) -> Affine:
 
 
 def cbrt(a: Affine) -> Affine:
-    """The cube root: w = -3 q**2 (2 q + y)/(y**2 + y q + q**2)**2, h = 1/(3 q**2) for y = cbrt(x), q = cbrt(p) of a sign.
+    """The cube root: w = -3 q**2 (2 q + y)/(y**2 + y q + q**2)**2, h = 1/(3 q**2) for y = cbrt(x), q = cbrt(p) of a
+    sign.
 
     Its size falls as |y| grows.
     """
@@ -89,9 +91,16 @@ def cbrt(a: Affine) -> Affine:
     base = fma(y, y, fma(y, q, q * q))
     size = s.div(q + q + y, base) * s.div(3.0 * (q * q), base)
     above, below = gt(x.lo, fmt.tiny), lt(x.hi, -fmt.tiny)
-    low, high = select(above, -size, 0.0), select(above, 0.0, size)
     expansion = Expansion(
-        value, slope, low, high, error.relative, 2 * error.relative + 4, error.absolute, or_(above, below), slope
+        value,
+        slope,
+        select(above, -size, 0.0),
+        select(above, 0.0, size),
+        value_error=error.relative,
+        slope_error=2 * error.relative + 4,
+        absolute=error.absolute,
+        valid=or_(above, below),
+        unit=slope,
     )
     return linearise(a, enclosure, expansion)
 

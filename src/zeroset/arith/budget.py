@@ -1,15 +1,17 @@
 """The rounding account of an affine form, kept while tracing so that the kernel pays little for soundness.
 
-A form c + sum u_i e_i with error bound e stands for reals x with |x - c - sum u_i e_i| <= E. Rounding must flow into e; done
-after each operation that would double its cost. Instead e is kept larger than needed by a known amount, and operations
-spend from that. The invariant, with M = |c| + sum |u_i| + E, eps the unit roundoff and q the smallest normal number, is
+A form c + sum u_i e_i with error bound e stands for reals x with |x - c - sum u_i e_i| <= E. Rounding must flow into
+e; done after each operation that would double its cost. Instead e is kept larger than needed by a known amount, and
+operations spend from that. The invariant, with M = |c| + sum |u_i| + E, eps the unit roundoff and q the smallest
+normal number, is
 
     e * (1 - eps)**-depth  >=  E + credit * eps * M + slack * q.
 
-``credit``, ``slack`` and ``depth`` are Python numbers. All of e's own arithmetic adds and multiplies non-negative scalars,
-so each of its roundings loses at most a factor 1 - eps and costs one ``depth``, repaid by one literal factor when the
-range is asked for. What each operation spends is derived where it is written; MARGIN covers the terms of second order, which
-stay below credit**2 * eps since ``credit`` is capped. When credit runs out it is bought: e + (price + STOCK) * eps * (|c| + sum |u_i|).
+``credit``, ``slack`` and ``depth`` are Python numbers. All of e's own arithmetic adds and multiplies non-negative
+scalars, so each of its roundings loses at most a factor 1 - eps and costs one ``depth``, repaid by one literal factor
+when the range is asked for. What each operation spends is derived where it is written; MARGIN covers the terms of
+second order, which stay below credit**2 * eps since ``credit`` is capped. When credit runs out it is bought: e +
+(price + STOCK) * eps * (|c| + sum |u_i|).
 """
 
 from __future__ import annotations
@@ -80,7 +82,8 @@ def bought(
     price: float = 0.0,
     stock: float = STOCK,
 ) -> tuple[Scalar, Budget]:
-    """A larger error bound that pays ``price * eps * (|c| + sum |u_i|)`` and leaves ``stock`` more credit and full slack.
+    """A larger error bound that pays ``price * eps * (|c| + sum |u_i|)`` and leaves ``stock`` more credit and full
+    slack.
 
     The stock's share of E itself is not added but taken as depth: stock * eps * E is what as many roundings of e lose.
     """

@@ -1,7 +1,8 @@
 """Contracting a symbol with the form itself: c + u e + error = 0 bounds e.
 
 One affine evaluation gives more than "perhaps a zero": the strip between the two lines c + u e +- error meets 0 on a
-part of [-1, 1] only, and where both lines go from one sign to the other a zero is proven (the intermediate value theorem).
+part of [-1, 1] only, and where both lines go from one sign to the other a zero is proven (the intermediate value
+theorem).
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Intervals: lower and upper bounds that hold in the arithmetic that runs.
 
-After Knoll et al. 2009, section 3.2 (doi:10.1111/j.1467-8659.2008.01189.x), with tight squares and even powers, division
-by intervals that hold 0, and explicit outward rounding (``rounding``). The contract: an interval holds f at every point of
-the box where f is defined and no intermediate value exceeds ``fmt.big`` (5e33 in f32). Bounds are always finite; one at or
-beyond +-big claims nothing on its side.
+After Knoll et al. 2009, section 3.2 (doi:10.1111/j.1467-8659.2008.01189.x), with tight squares and even powers,
+division by intervals that hold 0, and explicit outward rounding (``rounding``). The contract: an interval holds f at
+every point of the box where f is defined and no intermediate value exceeds ``fmt.big`` (5e33 in f32). Bounds are
+always finite; one at or beyond +-big claims nothing on its side.
 """
 
 from __future__ import annotations

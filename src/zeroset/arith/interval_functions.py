@@ -1,7 +1,8 @@
 """Elementary functions of intervals: end points for the monotone ones, domains respected.
 
-Each scalar function of ``elementary`` states its error bound; the bounds here are moved outward by that. Where an interval
-sticks out of a domain, the part inside counts, and the flags say so. The periodic ones are in ``interval_waves``.
+Each scalar function of ``elementary`` states its error bound; the bounds here are moved outward by that. Where an
+interval sticks out of a domain, the part inside counts, and the flags say so. The periodic ones are in
+``interval_waves``.
 """
 
 from __future__ import annotations
@@ -141,11 +142,11 @@ def atan2(y: Interval, x: Interval) -> Interval:
     fmt = y.fmt
     across = and_(le(y.lo, 0.0), ge(y.hi, 0.0))
     cut = or_(and_(lt(y.lo, 0.0), across, le(x.lo, 0.0)), and_(across, le(x.lo, 0.0), ge(x.hi, 0.0)))
-    first = select(ge(y.lo, 0.0), x.hi, x.lo)
-    last = select(le(y.hi, 0.0), x.hi, x.lo)
+    first = select(ge(y.lo, 0.0), x.hi, x.lo, like=y.lo)
+    last = select(le(y.hi, 0.0), x.hi, x.lo, like=y.hi)
     k = elementary.error_bound("atan2", fmt).relative + 1.1
-    low = lower(fmt, elementary.atan2(fmt, select(ge(first, 0.0), y.lo, y.hi), first), k)
-    high = upper(fmt, elementary.atan2(fmt, select(ge(last, 0.0), y.hi, y.lo), last), k)
+    low = lower(fmt, elementary.atan2(fmt, select(ge(first, 0.0), y.lo, y.hi, like=first), first), k)
+    high = upper(fmt, elementary.atan2(fmt, select(ge(last, 0.0), y.hi, y.lo, like=last), last), k)
     pi = _PI_ABOVE[fmt.name]
     like = x.lo if is_literal(y.lo) else y.lo
     flags = y.flags.meet(x.flags).within(s.not_(cut))

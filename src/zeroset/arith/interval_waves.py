@@ -1,7 +1,8 @@
 """sin, cos and tan of intervals: extrema and poles are found by counting turns.
 
-An extremum or a pole lies in [lo, hi] if an integer lies between x/period - phase at both ends; the ends are moved outward
-by more than the rounding of that, so none is missed. Beyond ``trigonometric_limit`` the honest answer is everything.
+An extremum or a pole lies in [lo, hi] if an integer lies between x/period - phase at both ends; the ends are moved
+outward by more than the rounding of that, so none is missed. Beyond ``trigonometric_limit`` the honest answer is
+everything.
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
 """The one way in which a function that is not affine becomes an affine form.
 
-For x = p + d, |d| <= r: f(x) = f(p) + f'(p) d + w (h d)**2 with w between two bounds that each function knows on the range
-(f''/2 by Taylor, often a closed form that is tighter). So the form keeps the slope f'(p), half of the remainder's range goes
-to the centre and half to the error, with all that was rounded. Where the plain interval of f is narrower, or the expansion
-is not valid (a pole, an edge of the domain), the lane takes that instead. K09 (section 5.4) left these functions to intervals
-for want of a regression robust to inaccurate division; here every inaccuracy is in the bound.
+For x = p + d, |d| <= r: f(x) = f(p) + f'(p) d + w (h d)**2 with w between two bounds that each function knows on the
+range (f''/2 by Taylor, often a closed form that is tighter). So the form keeps the slope f'(p), half of the
+remainder's range goes to the centre and half to the error, with all that was rounded. Where the plain interval of f
+is narrower, or the expansion is not valid (a pole, an edge of the domain), the lane takes that instead. K09 (section
+5.4) left these functions to intervals for want of a regression robust to inaccurate division; here every inaccuracy
+is in the bound.
 """
 
 from __future__ import annotations

@@ -110,11 +110,15 @@ class Real(Number):
 
     def lt(self, other: Real, /) -> RealCondition:
         """The plain comparison."""
-        return RealCondition(lt(self.value, other.value), and_(self.defined, other.defined), self.value)
+        return self._compared(other, lt(self.value, other.value))
 
     def le(self, other: Real, /) -> RealCondition:
         """The plain comparison."""
-        return RealCondition(le(self.value, other.value), and_(self.defined, other.defined), self.value)
+        return self._compared(other, le(self.value, other.value))
+
+    def _compared(self, other: Real, holds: Mask) -> RealCondition:
+        like = other.value if s.is_literal(self.value) else self.value
+        return RealCondition(holds, and_(self.defined, other.defined), like)
 
 
 class RealCondition(Condition[Real]):

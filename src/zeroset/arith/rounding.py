@@ -1,10 +1,10 @@
 """Outward rounding without directed rounding: bounds are moved by an explicit amount.
 
-There is no rounding mode to set on SIMD code or on a GPU, so a computed bound x moves to ``x - (k*eps*|x| + tiny)``. With
-k = 2 that covers one operation rounded to nearest, and its proof is monotonicity: k*eps*|x| is at least one unit in the
-last place of x, so the exact difference is at or below the next number under x, and rounding keeps it there; the true
-value is within half a unit of x. Every further relative error of ``eps`` adds 1 to k; ``tiny`` covers underflow and flushed
-subnormals. The arguments hold for fused and for separate multiply-add.
+There is no rounding mode to set on SIMD code or on a GPU, so a computed bound x moves to ``x - (k*eps*|x| + tiny)``.
+With k = 2 that covers one operation rounded to nearest, and its proof is monotonicity: k*eps*|x| is at least one unit
+in the last place of x, so the exact difference is at or below the next number under x, and rounding keeps it there;
+the true value is within half a unit of x. Every further relative error of ``eps`` adds 1 to k; ``tiny`` covers
+underflow and flushed subnormals. The arguments hold for fused and for separate multiply-add.
 """
 
 from __future__ import annotations

@@ -72,7 +72,10 @@ def chebyshev(order: Expr, x: Expr) -> Expr:
             hints=("the order comes first: T(4, x)",),
         )
     if n > CHEBYSHEV:
-        raise FormulaLimitError(f"the order of T(n, x) is too large: it goes up to {CHEBYSHEV}")
+        raise FormulaLimitError(
+            f"the order of T(n, x) is too large: it goes up to {CHEBYSHEV}",
+            hint="T(a b, x) is T(a, T(b, x))",
+        )
     return _chebyshev(int(n), x, {})
 
 

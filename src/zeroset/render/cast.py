@@ -84,6 +84,7 @@ def cast(
     chosen = resolve_method(method)
     shown = as_scene(surface).surface
     chosen.check(shown.field)
+    shown.check_work()
     target = get_device(device)
     starts, ways = _rays(origins, directions)
     bounds = shown.fitted

@@ -87,6 +87,7 @@ def render(
     layout = _layout(size)
     chosen = resolve_method(method)
     chosen.check(shown.field)
+    shown.check_work()
     target = get_device(device)
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
     frame = frame_for(shown, chosen, len(lit), layout, target)

@@ -25,6 +25,8 @@ UNBOUNDED = 6.0
 """Radius that a surface gets which leaves the cube."""
 BOXES = 6000
 """Boxes that a level may keep; beyond, the hull is good enough."""
+EVALUATIONS = 1_000_000
+"""Operations on boxes that a level may cost: long formulas keep fewer boxes."""
 LEVELS = 12
 
 Corners = npt.NDArray[np.float64]
@@ -33,11 +35,12 @@ Corners = npt.NDArray[np.float64]
 def fit_bounds(surface: Surface) -> Ball:
     """The smallest ball found around the surface; the unit ball where space holds no zero at all."""
     low, high = np.full((1, 3), -SEARCHED), np.full((1, 3), SEARCHED)
+    most = min(BOXES, max(64, EVALUATIONS // surface.field.work))
     for _ in range(LEVELS):
         inner_low, inner_high = _split(low, high)
         kept = _may_hold_zero(surface, inner_low, inner_high)
         low, high = inner_low[kept], inner_high[kept]
-        if not len(low) or len(low) > BOXES:
+        if not len(low) or len(low) > most:
             break
     if not len(low):
         return Ball(1.0)

@@ -17,14 +17,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.errors import ArrayShapeError, FormulaError, ParameterError, did_you_mean
-from zeroset.expr import Expr, degree, evaluate, parse, postorder, text
+from zeroset.errors import ArrayShapeError, FormulaError, FormulaLimitError, ParameterError, did_you_mean
+from zeroset.expr import OPS, Expr, degree, evaluate, parse, postorder, text
 from zeroset.expr.text import brief
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
 
 if TYPE_CHECKING:
     import sympy
+
+MOST_WORK = 4000
+"""Operations up to which a formula is compiled, functions counted several times: about half a minute."""
+_FUNCTION_WORK = 8
 
 TIME = "w"
 """The fourth variable: a uniform like any parameter, 0 unless it is given."""
@@ -60,6 +64,11 @@ class ExprField:
     def highest_power(self) -> int:
         """The largest whole exponent in f as it is written."""
         return max((abs(int(part.data[0])) for part in postorder(self.expr) if part.op == "powi"), default=1)
+
+    @cached_property
+    def work(self) -> int:
+        """What compiling f costs, in arithmetic operations; functions and powers count for several."""
+        return sum(_FUNCTION_WORK if OPS[part.op].kind == "function" else 1 for part in postorder(self.expr))
 
     def evaluate(self, system: Any, env: Any) -> Any:
         """f on numbers of ``system``."""
@@ -129,7 +138,19 @@ class Surface:
             return self.bounds
         from zeroset.scene.fit import fit_bounds
 
+        self.check_work()
         return fit_bounds(self)
+
+    def check_work(self) -> None:
+        """Raise ``FormulaLimitError`` for a formula that no compiler digests while somebody waits."""
+        if self.field.work > MOST_WORK:
+            raise FormulaLimitError(
+                f"the formula has too many operations to be drawn: {self.field.work:,} where {MOST_WORK:,} are the limit",
+                hints=(
+                    "put repeated data (such as sphere centres) into an array parameter: sum(i, ... c[i] ...)",
+                    "draw parts of it as surfaces of their own",
+                ),
+            )
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Surface) and self._identity() == other._identity()
@@ -188,12 +209,8 @@ def _check_names(field: ExprField, params: Mapping[str, float], arrays: Mapping[
 
 def index_groups(expr: Expr) -> list[frozenset[str]]:
     """Array parameters that share a sum's index, sum by sum."""
-    groups: dict[str, set[str]] = {}
-    for part in postorder(expr):
-        if part.op == "element":
-            array, index = (str(item) for item in part.data)
-            groups.setdefault(index, set()).add(array)
-    return [frozenset(group) for group in groups.values()]
+    # A sum's data are its index and the arrays that it runs over.
+    return [frozenset(str(name) for name in part.data[1:]) for part in postorder(expr) if part.op == "sum"]
 
 
 def _is_array(value: Any) -> bool:

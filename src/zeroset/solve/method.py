@@ -43,6 +43,8 @@ class Method:
             value = getattr(self, item.name)
             if item.metadata.get("uniform") and not (isinstance(value, (int, float)) and math.isfinite(value)):
                 raise MethodError(f"{self.name}: {item.name} must be a finite number, not {value!r}")
+            if isinstance(item.default, bool) and not isinstance(value, bool):
+                raise MethodError(f"{self.name}: {item.name} must be True or False, not {value!r}")
 
     def structure(self) -> str:
         """What shapes the kernel: the name and the options that are no uniforms."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from zeroset.arith import DualSystem, IntervalSystem
-from zeroset.kernel import U32, Value, constant, if_, while_
+from zeroset.kernel import BOOL, U32, Value, constant, if_, lift, while_
 from zeroset.solve.method import Method, register
 from zeroset.solve.problem import HIT, MISS, UNRESOLVED, Answer, Problem
 
@@ -55,9 +55,8 @@ class _IntervalPieces:
         f = self._problem.lowered.along(self._dual, self._problem.ray, t)
         whole = f.value.defined & f.derivative(0).defined
         slope = sign_of(self._problem, f.derivative(0))
-        if whole is not True:
-            slope = whole.select(slope, 0.0)
-        return ~f.value.contains_zero(), slope, whole
+        slope = lift(whole, BOOL).select(slope, 0.0)
+        return ~lift(f.value.contains_zero(), BOOL), slope, lift(whole, BOOL)
 
 
 def isolate(problem: Problem, pieces: Any) -> Answer:

@@ -18,7 +18,7 @@ from typing import Any
 
 from zeroset.arith import Affine as AffineForm
 from zeroset.arith import AffineSystem
-from zeroset.kernel import BOOL, U32, Value, constant, while_
+from zeroset.kernel import BOOL, U32, Value, constant, lift, while_
 from zeroset.solve.problem import HIT, MISS, UNRESOLVED, Answer, Problem
 from zeroset.solve.walk import State, Walk
 
@@ -57,7 +57,7 @@ def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
     # The rounded middle is not exactly in the middle, and the subtraction rounds too: a hair wider covers both.
     half = (b - middle).maximum(middle - a) * (1.0 + 2.0**-20)
     f = problem.lowered.along(system, problem.ray, stretch(system, middle, half))
-    excluded = ~f.contains_zero()
+    excluded = ~lift(f.contains_zero(), BOOL)
     one = problem.number(1.0)
     bounds = f.interval()
     width = problem.lift(bounds.hi) - problem.lift(bounds.lo)
@@ -67,7 +67,8 @@ def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
     cut = f.contract()
     left = problem.lift(cut.low).fma(half, middle).maximum(a)
     right = problem.lift(cut.high).fma(half, middle).minimum(b)
-    after = cut.rising.select(one, -one)
+    # Where an operation leaves no slope at all, such as floor, contraction answers with literals.
+    after = lift(cut.rising, BOOL).select(one, -one)
     return Look(excluded, cut.crosses, f.defined, left, right, excluded.select(sign, -after), after, width)
 
 

@@ -86,6 +86,10 @@ def _comparison(name: str) -> Callable[..., ArrayMask]:
     return lambda a, b: ArrayMask(getattr(_plain(a), name)(_plain(b)), type(a))
 
 
+def _unary(function: Callable[[Any], Any]) -> Callable[[Fused], Fused]:
+    return lambda a: type(a)(function(a.array))
+
+
 for _name in ("add", "sub", "mul", "truediv", "radd", "rsub", "rmul", "rtruediv"):
     setattr(Fused, f"__{_name}__", _arithmetic(f"__{_name}__"))
 for _name in ("lt", "le", "gt", "ge"):
@@ -93,4 +97,4 @@ for _name in ("lt", "le", "gt", "ge"):
 for _name in ("eq", "ne"):
     setattr(Fused, _name, _comparison(f"__{_name}__"))
 for _name in ("sqrt", "floor", "ceil", "trunc", "rint"):
-    setattr(Fused, _name, lambda a, function=getattr(np, _name): type(a)(function(a.array)))
+    setattr(Fused, _name, _unary(getattr(np, _name)))

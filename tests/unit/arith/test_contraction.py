@@ -50,7 +50,7 @@ def test_no_zero_is_lost(kind, intersect):
 def test_a_strip_is_cut_where_it_meets_zero(centre, slope, error, fmt):
     form = AffineSystem(fmt).form(centre, (slope,), error)
     found = form.contract()
-    assert -1 <= found.low
+    assert found.low >= -1
     assert found.high <= 1
     for e in np.linspace(-1, 1, 41).tolist():
         if abs(centre + slope * e) <= error:

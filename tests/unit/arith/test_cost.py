@@ -68,9 +68,7 @@ def test_interval_operations():
 
     def cost(call, arity):
         numbers = 2 * arity
-        return operations(
-            lambda *v: call(*(Interval(system, v[2 * i], v[2 * i + 1]) for i in range(arity))), numbers
-        )
+        return operations(lambda *v: call(*(Interval(system, v[2 * i], v[2 * i + 1]) for i in range(arity))), numbers)
 
     assert cost(lambda a, b: a + b, 2) <= 8
     assert cost(lambda a, b: a * b, 2) <= 20

@@ -21,7 +21,10 @@ def true_slope(truth, point, direction):
     """Central difference with a step far below what is asked of the result."""
     with flint.ctx.workprec(600):
         h = flint.arb(2) ** -150
-        ends = [truth(*(flint.arb(float(p)) + sign * h * d for p, d in zip(point, direction, strict=True))) for sign in (1, -1)]
+        ends = [
+            truth(*(flint.arb(float(p)) + sign * h * d for p, d in zip(point, direction, strict=True)))
+            for sign in (1, -1)
+        ]
         return (ends[0] - ends[1]) / (2 * h)
 
 
@@ -44,7 +47,9 @@ def test_exact_derivatives(name):
         assert result.derivative(0).value == pytest.approx(float(expected.mid()), rel=1e-11, abs=1e-11)
 
 
-@pytest.mark.parametrize("enclosing", [IntervalSystem(F32), AffineSystem(F32), AffineSystem(F32, intersect=True)], ids=repr)
+@pytest.mark.parametrize(
+    "enclosing", [IntervalSystem(F32), AffineSystem(F32), AffineSystem(F32, intersect=True)], ids=repr
+)
 @pytest.mark.parametrize("name", CASES)
 def test_ranges_of_derivatives(name, enclosing):
     arity, _, truth = CASES[name]

@@ -39,7 +39,7 @@ def test_down_and_up_enclose_within_two_spacings(value, fmt):
         assert down == up == value
 
 
-@pytest.mark.parametrize("value", [1.0, -1.0, 0.5, 3.0, -2.0**-20, 1 - 2.0**-24])
+@pytest.mark.parametrize("value", [1.0, -1.0, 0.5, 3.0, -(2.0**-20), 1 - 2.0**-24])
 def test_step_goes_to_the_neighbour(value):
     for direction in (-1, 1):
         expected = np.nextafter(np.float32(value), np.float32(direction * np.inf))

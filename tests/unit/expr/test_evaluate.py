@@ -159,7 +159,7 @@ def test_deep_formulas(at):
     assert 0 < at(f, x=1.0) < 0.02
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(data=st.data())
 def test_rewritten_and_unrewritten_agree_on_floats(data, raw_formulas, points, at):
     raw = data.draw(raw_formulas)

@@ -10,10 +10,9 @@ from zeroset.expr import enclose, parse, postorder, rewrite, text
 from zeroset.expr.build import shared
 
 MANY = settings(
-    max_examples=3000,
+    max_examples=150,
     deadline=None,
-    derandomize=False,
-    database=None,
+    derandomize=True,
     suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
 )
 
@@ -63,3 +62,42 @@ def test_text_parses_back_to_the_same_node(data, raw_formulas):
                     assume(False)
         raise
     assert again is expr
+
+
+_PIECES = st.sampled_from(
+    [
+        *"xyzwae0123().,+-*/^|=<>[]i² √π&%\n",
+        "sin",
+        "sin(",
+        "if(",
+        "sum(i,",
+        "r[i]",
+        "min(",
+        "T(3,",
+        " and ",
+        "not ",
+        "1e9",
+        "<=",
+    ]
+)
+
+
+@settings(max_examples=600, deadline=None, derandomize=True)
+@given(pieces=st.lists(_PIECES, max_size=14))
+def test_any_text_is_a_formula_or_an_error_with_a_place(pieces):
+    written = "".join(pieces)
+    expr, error = _read(written)
+    if error is None:
+        assert parse(text(expr), params=["a"], arrays=["r"]) is expr
+    else:
+        assert error.text == written
+        assert error.position is not None
+        assert 0 <= error.position <= len(written)
+        assert error.hints
+
+
+def _read(written):
+    try:
+        return parse(written, params=["a"], arrays=["r"]), None
+    except FormulaError as error:
+        return None, error

@@ -47,6 +47,7 @@ def test_a_method_is_named_or_given() -> None:
         ("marching-points", {"steps": 2.5}, "steps"),
         ("marching-points", {"steps": 1e6}, "steps"),
         ("marching-points", {"steps": "many"}, "steps must be a finite number"),
+        ("adaptive-marching-points", {"silhouettes": "yes"}, "silhouettes must be True or False"),
         ("adaptive-marching-points", {"tau1": float("inf")}, "tau1 must be a finite number"),
     ],
 )

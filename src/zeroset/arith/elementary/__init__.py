@@ -1,8 +1,9 @@
 """Elementary functions over any scalar, as polynomials with stated error bounds.
 
-WGSL promises 2**-11 for its sine, and LLVM has none for vectors, so zeroset has its own: every function takes a format and a
-scalar (see ``scalar``) and uses nothing but + - * /, fma, sqrt, rounding to integers, exponents and select. No finite
-argument gives NaN or infinity; arguments outside a domain are clamped to it. ``error_bound`` is what each guarantees.
+WGSL promises 2**-11 for its sine, and LLVM has none for vectors, so zeroset has its own: every function takes a
+format and a scalar (see ``scalar``) and uses nothing but + - * /, fma, sqrt, rounding to integers, exponents and
+select. No finite argument gives NaN or infinity; arguments outside a domain are clamped to it. ``error_bound`` is
+what each guarantees.
 """
 
 from zeroset.arith.elementary.bounds import ErrorBound, by_roots, error_bound, power_error, trigonometric_limit

@@ -1,7 +1,8 @@
 """sin, cos and tan: reduction by multiples of pi/2 in three parts (Cody & Waite), then polynomials on [-pi/4, pi/4].
 
-The first two parts are so short that their products with k are exact, and so are the two subtractions; the third product
-and subtraction round, which is the slope of the error bound. Beyond ``trigonometric_limit`` the argument is clamped.
+The first two parts are so short that their products with k are exact, and so are the two subtractions; the third
+product and subtraction round, which is the slope of the error bound. Beyond ``trigonometric_limit`` the argument is
+clamped.
 """
 
 from __future__ import annotations

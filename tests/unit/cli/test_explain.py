@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from zeroset.kernel.passes import PASSES
+
+Run = Callable[..., object]
+
+
+def test_the_short_form_fits_a_screen(zeroset: Run) -> None:
+    ran = zeroset("explain", "x^2 + a*y = 1", "-p", "a=2", "-b", "2")
+    assert ran.status == 0
+    assert "formula     x^2 + a*y - 1 = 0" in ran.out
+    assert "polynomial of degree 2" in ran.out
+    assert "a = 2" in ran.out
+    assert "%4 = mul %2, %3" in ran.out
+    for kernel in ("beams", "primary", "second", "shade"):
+        assert f"\n  {kernel}" in ran.out
+    assert len(ran.out.splitlines()) < 40
+
+
+def test_a_gallery_surface_and_a_method_without_proof(zeroset: Run) -> None:
+    ran = zeroset("explain", "barth-sextic", "-m", "marching-points")
+    assert ran.status == 0
+    assert "barth-sextic" in ran.out
+    assert "not certified" in ran.out
+    assert "beams" not in ran.out
+    ran = zeroset("explain", "blinn-blobby", "--dag")
+    assert ran.status == 0
+    assert "sum" in ran.out
+
+
+def test_a_kernel_after_each_pass(zeroset: Run) -> None:
+    ran = zeroset("explain", "x + y", "-b", "2", "--kernel", "shade", "--passes")
+    heads = [line for line in ran.out.splitlines() if line.startswith("# shade, ")]
+    assert [head.split(",")[1].split(":")[0].strip() for head in heads] == ["traced", *PASSES]
+    last = zeroset("explain", "x + y", "-b", "2", "--kernel", "shade")
+    assert last.out.startswith("# shade, dce: ")
+    assert "kernel shade(" in last.out
+    traced = zeroset("explain", "x + y", "-b", "2", "--kernel", "shade", "--pass", "traced")
+    assert len(traced.out) > len(last.out)
+
+
+def test_the_target_code(zeroset: Run) -> None:
+    ran = zeroset("explain", "x + y", "-b", "2", "--kernel", "shade", "--target", "llvm")
+    assert "define internal void @kernel" in ran.out
+    ran = zeroset("explain", "x + y", "-b", "2", "--kernel", "shade", "--target", "asm")
+    assert "drain:" in ran.out
+    assert "ret" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (["x +"], "a value is missing"),
+        (["x", "-b", "1", "--kernel", "primry"], "did you mean primary"),
+        (["x", "-b", "1", "--kernel", "beams", "-m", "marching-points"], "there are primary, shade"),
+        (["x", "-b", "1", "--kernel", "shade", "--pass", "fould"], "did you mean fold"),
+        (["x", "-b", "1", "--target", "wgsl"], "there are llvm, asm"),
+        (["sin(x)", "-b", "1", "-m", "analytic"], "needs a polynomial"),
+    ],
+)
+def test_mistakes(args: list[str], said: str, zeroset: Run) -> None:
+    ran = zeroset("explain", *args)
+    assert ran.status == 2
+    assert said in ran.err
+    assert ran.out == ""

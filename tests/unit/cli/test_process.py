@@ -1,0 +1,57 @@
+"""The command as a process of its own: what only shows there."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+COMMAND = [sys.executable, "-m", "zeroset"]
+
+
+def test_a_picture_from_a_fresh_process(tmp_path: Path) -> None:
+    ran = subprocess.run(
+        [*COMMAND, "render", "-x^2 - y^2 - z^2 + 1", "-b", "1.5", "-s", "32", "-o", "a.png"],
+        cwd=tmp_path, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert ran.stderr == ""
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_mistake_is_no_traceback(tmp_path: Path) -> None:
+    ran = subprocess.run([*COMMAND, "render", "x^2 +* y"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ran.returncode == 2
+    assert ran.stdout == ""
+    assert ran.stderr.startswith("error: ")
+    assert "Traceback" not in ran.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_ctrl_c_in_the_middle_of_a_long_render(tmp_path: Path) -> None:
+    (tmp_path / "a.png").write_bytes(b"what was there")
+    # Minutes of work, most of it inside compiled code.
+    command = [*COMMAND, "render", "sin(9x)*sin(8y)*sin(9z) = 0.2", "-b", "6", "-s", "8000", "-o", "a.png", "-t", "1e-7"]
+    command += ["-m", "marching-points:steps=50000"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    time.sleep(3)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert "interrupted" in err
+    assert "Traceback" not in out + err
+    assert (tmp_path / "a.png").read_bytes() == b"what was there"
+    assert os.listdir(tmp_path) == ["a.png"]
+
+
+def test_a_reader_that_leaves_early_is_no_error() -> None:
+    process = subprocess.Popen([*COMMAND, "gallery"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    process.stdout.close()
+    assert process.stderr is not None
+    assert process.stderr.read() == ""
+    process.stderr.close()
+    process.wait(timeout=20)

@@ -1,0 +1,169 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import zeroset as zs
+
+Run = Callable[..., object]
+BALL = "x^2 + y^2 + z^2 = 1"
+
+
+def picture(path: Path) -> np.ndarray:  # type: ignore[type-arg]
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+def test_a_formula_becomes_a_picture(zeroset: Run, tmp_path: Path) -> None:
+    ran = zeroset("render", BALL, "-o", "ball.png", "-s", "40x30", "-b", "1.5")
+    assert (ran.status, ran.err) == (0, "")
+    assert ran.out.startswith("ball.png: 40x30, ")
+    expected = zs.render(zs.surface(BALL, bounds=1.5), (40, 30))
+    assert np.array_equal(picture(tmp_path / "ball.png"), expected.pixels)
+    assert f"{expected.hits} pixels of surface" in ran.out
+    assert list(tmp_path.iterdir()) == [tmp_path / "ball.png"]
+
+
+def test_a_gallery_name_a_scene_file_and_what_changes_them(zeroset: Run, tmp_path: Path) -> None:
+    assert zeroset("render", "clebsch", "-o", "a.png", "-s", "24", "--save-scene", "a.toml").status == 0
+    assert zeroset("render", "a.toml", "-o", "b.png", "-s", "24").status == 0
+    assert np.array_equal(picture(tmp_path / "a.png"), picture(tmp_path / "b.png"))
+    assert zeroset("render", "a.toml", "-o", "c.png", "-s", "24", "--orbit", "30").status == 0
+    assert not np.array_equal(picture(tmp_path / "a.png"), picture(tmp_path / "c.png"))
+    assert zs.load(tmp_path / "a.toml").camera == zs.gallery["clebsch"].camera
+
+
+def test_parameters_and_the_camera(zeroset: Run, tmp_path: Path) -> None:
+    view = ("--eye", "0,-5,0", "--target", "0,0,0.5", "--up", "0,0,1", "--fov", "30")
+    ran = zeroset("render", "x^2 + y^2 + z^2 = a", "-p", "a=0.25", *view, "-o", "a.png", "-s", "24", "--save-scene", "s.toml")
+    assert ran.status == 0
+    scene = zs.load(tmp_path / "s.toml")
+    assert scene.surface.params["a"] == 0.25
+    assert scene.camera == zs.Camera((0, -5, 0), (0, 0, 0.5), (0, 0, 1), 30)
+    assert zeroset("render", "s.toml", "--height", "2", "-o", "b.png", "-s", "8", "--save-scene", "t.toml").status == 0
+    assert zs.load(tmp_path / "t.toml").camera == zs.Camera((0, -5, 0), (0, 0, 0.5), (0, 0, 1), None, 2.0)
+    blobs = "sum(i, 1/((x - c[i])^2 + y^2 + z^2)) = 4"
+    ran = zeroset("render", blobs, "-p", "c=-0.5,0.5", "-b", "-2,-2,-2,2,2,2", "-o", "c.png", "-s", "16", "--save-scene", "u.toml")
+    assert ran.status == 0
+    assert zs.load(tmp_path / "u.toml").surface.arrays["c"].tolist() == [-0.5, 0.5]
+
+
+def test_formulas_may_begin_with_a_minus_sign(zeroset: Run) -> None:
+    for formula in ("-x^2 + y", "-(x + y)", "-sin(x) + y", "-2x + y", "- z + x"):
+        ran = zeroset("render", formula, "-o", "a.png", "-s", "8", "-b", "2", "--eye", "-3,-4,2")
+        assert ran.status == 0, formula
+    assert zeroset("render", "-o", "a.png", "-s", "8", "-b", "2", "--", "-x + y").status == 0
+
+
+def test_words_of_variables_are_formulas(zeroset: Run) -> None:
+    assert zeroset("render", "xyz", "-o", "a.png", "-s", "8", "-b", "2").status == 0
+    assert zeroset("render", "ab-x", "-p", "ab=0.5", "-o", "a.png", "-s", "8", "-b", "2").status == 0
+
+
+def test_the_outputs_as_numbers(zeroset: Run, tmp_path: Path) -> None:
+    ran = zeroset("render", BALL, "-b", "1.5", "-o", "a.png", "-s", "16", "--save-outputs", "a.npz")
+    assert ran.status == 0
+    with np.load(tmp_path / "a.npz") as outputs:
+        assert set(outputs) == {"depth", "normal", "status", "steps", "t"}
+        assert outputs["normal"].shape == (16, 16, 3)
+
+
+def test_an_empty_picture_says_so(zeroset: Run, tmp_path: Path) -> None:
+    ran = zeroset("render", "x^2 + y^2 + z^2 + 1", "-o", "a.png", "-s", "16")
+    assert ran.status == 0
+    assert "certified: no ray meets a zero of f" in ran.err
+    assert np.all(picture(tmp_path / "a.png") == 255)
+    ran = zeroset("render", "x^2 + y^2 + z^2 + 1", "-m", "marching-points", "-o", "a.png", "-s", "16")
+    assert "no ray meets" in ran.err
+    assert "certified" not in ran.err
+
+
+def test_methods_have_options(zeroset: Run) -> None:
+    ran = zeroset("render", BALL, "-m", "marching-points:test=taylor,steps=30", "-o", "a.png", "-s", "8", "-b", "1.5")
+    assert ran.status == 0
+    for method, said in (
+        ("marching-points:tset=sign", "did you mean test"),
+        ("marching-points:steps=many", "steps must be a finite number"),
+        ("marching-points:test=gut", "test must be"),
+        ("adaptive-marching-points:silhouettes=maybe", "silhouettes"),
+        ("autoo", "did you mean 'auto'"),
+    ):
+        ran = zeroset("render", BALL, "-m", method, "-o", "b.png", "-s", "8", "-b", "1.5")
+        assert ran.status == 2, method
+        assert said in ran.err
+
+
+BAD = [
+    (["x^2 + "], ["a value is missing", "  x^2 + \n", "^", "hint:"]),
+    (["sinn(x)"], ["unknown function sinn", "did you mean sin"]),
+    (["a*x + y"], ["unknown name a", "-p a=1"]),
+    (["sum(i, x - c[i])"], ["-p c=1.0,2.0"]),
+    (["3"], ["none of the variables"]),
+    (["x^(10^9)"], ["exponent", "too large"]),
+    (["(" * 100_000 + "x" + ")" * 100_000], ["at most"]),
+    (["(" * 20_000 + "x" + ")" * 20_000], ["nested too deeply"]),
+    (["+".join(["x"] * 1_000_000)], ["at most"]),
+    (["+".join(f"sin({i}x)" for i in range(2000))], ["too many operations"]),
+    (["barth-sextik"], ["did you mean barth-sextic"]),
+    (["none.toml"], ["No such file", "in none.toml"]),
+    ([BALL, "-o", "none/a.png"], ["cannot write 'none/a.png'", "no folder"]),
+    ([BALL, "-o", "."], ["cannot"]),
+    ([BALL, "-o", "a.xyz"], ["cannot tell a picture format", ".png"]),
+    ([BALL, "--save-scene", "none/a.toml"], ["no folder"]),
+    ([BALL, "-s", "0"], ["size must be from 1"]),
+    ([BALL, "-s", "-1"], ["size must be from 1"]),
+    ([BALL, "-s", "99999"], ["size must be from 1"]),
+    ([BALL, "-s", "16384"], ["more than"]),
+    ([BALL, "-s", "big"], ["cannot read the size"]),
+    ([BALL, "-b", "0"], ["radius"]),
+    ([BALL, "-b", "nan"], ["finite"]),
+    ([BALL, "-b", "1,2"], ["cannot read the bounds"]),
+    ([BALL, "-b", "0,0,0,1,1,0"], ["empty"]),
+    ([BALL, "-t", "-1"], ["tolerance"]),
+    ([BALL, "-t", "fine"], ["fine"]),
+    ([BALL, "-d", "cpuu"], ["no device 'cpuu'", "did you mean cpu"]),
+    ([BALL, "-p", "a=1"], ["no parameter 'a'"]),
+    ([BALL, "-p", "a"], ["cannot read the parameter", "name=number"]),
+    (["x + a", "-p", "a=inf"], ["finite"]),
+    ([BALL, "--eye", "1,2"], ["cannot read the eye"]),
+    ([BALL, "--eye", "0,0,0"], ["its own place"]),
+    ([BALL, "--eye", "1,nan,0"], ["finite"]),
+    ([BALL, "--up", "0,0,0"], ["up must not be zero"]),
+    ([BALL, "--fov", "180"], ["fov"]),
+    ([BALL, "--fov", "30", "--height", "1"], ["either a fov or a height"]),
+    ([BALL, "--orbit", "nan"], ["finite"]),
+    ([BALL, "--frobnicate"], ["No such option"]),
+    ([BALL, "x"], ["unexpected extra argument"]),
+    ([], ["Missing argument"]),
+]
+
+
+@pytest.mark.parametrize(("args", "said"), BAD, ids=[f"{' '.join(args)[:40]}" for args, _ in BAD])
+def test_a_mistake_gets_one_clear_message(args: list[str], said: list[str], zeroset: Run, tmp_path: Path) -> None:
+    ran = zeroset("render", *args, *([] if "-o" in args else ["-o", "out.png"]))
+    assert ran.status == 2
+    assert ran.out == ""
+    for part in said:
+        assert part in ran.err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("formula = ", "in s.toml:1"),
+        ('formula = "x^2"\nbunds = 3', "in s.toml:2"),
+        ('formula = "x^2 +"', "in s.toml:1"),
+        ('formula = "x"\n[camera]\nfov = 300', "in s.toml:3"),
+    ],
+)
+def test_a_mistake_in_a_scene_file_has_file_and_line(text: str, said: str, zeroset: Run, tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text(text)
+    ran = zeroset("render", "s.toml", "-o", "out.png")
+    assert ran.status == 2
+    assert said in ran.err
+    assert not (tmp_path / "out.png").exists()
