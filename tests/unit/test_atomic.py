@@ -24,9 +24,14 @@ def test_a_file_appears_whole(tmp_path: Path) -> None:
 def test_an_interruption_leaves_what_was_there(error: type[BaseException], tmp_path: Path) -> None:
     target = tmp_path / "a.txt"
     target.write_bytes(b"old")
-    with pytest.raises(error), replacing(target) as file:
-        file.write(b"new")
-        raise error
+
+    def interrupted() -> None:
+        with replacing(target) as file:
+            file.write(b"new")
+            raise error
+
+    with pytest.raises(error):
+        interrupted()
     assert target.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [target]
 

@@ -23,6 +23,7 @@ from zeroset.arith.scalar import (
     and_,
     fma,
     gt,
+    is_literal,
     lt,
     maximum,
     minimum,
@@ -53,10 +54,10 @@ def _reciprocal(a: Affine) -> tuple[Affine, Mask]:
 
 def divide(a: Affine, b: Affine) -> Affine:
     """a / b; the whole line where ``b`` may be 0."""
-    if b.is_constant:
-        divisor = b.interval()
-        if divisor.lo > b.fmt.tiny or divisor.hi < -b.fmt.tiny:
-            return a.mul(a.system.constant(*literal_reciprocal(divisor)))
+    divisor = b.interval()
+    known = b.is_constant and is_literal(divisor.lo, divisor.hi)
+    if known and (divisor.lo > b.fmt.tiny or divisor.hi < -b.fmt.tiny):
+        return a.mul(a.system.constant(*literal_reciprocal(divisor)))
     inverse, regular = _reciprocal(b)
     quotient = a.mul(inverse)
     line = a.system.from_interval(Interval(a.system.intervals, -a.fmt.big, a.fmt.big))

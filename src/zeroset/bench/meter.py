@@ -1,7 +1,11 @@
-"""A device that counts and times what is compiled on it, and leaves everything else to the device that it wraps."""
+"""A device that counts and times what is compiled on it, and leaves everything else to the device that it wraps.
+
+A frame asks for its programs from several threads at once.
+"""
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +20,7 @@ class Meter:
 
     Attributes:
         compilations: kernels that were compiled; what came from memory or disk is not counted.
-        milliseconds: spent on obtaining programs, from wherever they came.
+        milliseconds: during which programs were being obtained, from wherever they came; several at once count once.
 
     Example:
         >>> from zeroset.render.render import render
@@ -31,6 +35,9 @@ class Meter:
         self._device = device
         self.compilations = 0
         self.milliseconds = 0.0
+        self._lock = threading.Lock()
+        self._active = 0
+        self._begin = 0.0
 
     @property
     def name(self) -> str:
@@ -39,24 +46,34 @@ class Meter:
 
     def compile(self, kernel: Kernel) -> Program:
         """The program of a kernel; counted, for nobody asks for one by kernel twice."""
-        self.compilations += 1
+        self._count()
         return self._timed(lambda: self._device.compile(kernel))
 
     def compile_cached(self, key: str, build: Callable[[], Kernel]) -> Program:
         """The program under a key; counted where its kernel had to be traced."""
 
         def counted() -> Kernel:
-            self.compilations += 1
+            self._count()
             return build()
 
         return self._timed(lambda: self._device.compile_cached(key, counted))
 
+    def _count(self) -> None:
+        with self._lock:
+            self.compilations += 1
+
     def _timed(self, obtain: Callable[[], Program]) -> Program:
-        begin = time.perf_counter()
+        with self._lock:
+            if not self._active:
+                self._begin = time.perf_counter()
+            self._active += 1
         try:
             return obtain()
         finally:
-            self.milliseconds += (time.perf_counter() - begin) * 1e3
+            with self._lock:
+                self._active -= 1
+                if not self._active:
+                    self.milliseconds += (time.perf_counter() - self._begin) * 1e3
 
     def allocate(self, type_: Type, count: int) -> Any:
         """A buffer of the wrapped device."""

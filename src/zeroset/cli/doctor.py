@@ -11,7 +11,6 @@ import click
 NEEDED = {
     "numpy": "arrays",
     "llvmlite": "machine code for the CPU; without it pictures are drawn by the slow interpreter",
-    "lark": "formulas",
     "pillow": "pictures",
     "click": "the command line",
     "rich": "progress",

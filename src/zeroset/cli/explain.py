@@ -26,7 +26,7 @@ TRACED = "traced"
 @click.command("explain", cls=FormulaCommand)
 @surface_options
 @click.option("--dag", is_flag=True, help="List all operations of the formula.")
-@click.option("--kernel", metavar="NAME", help="Show one kernel: beams, primary, second or shade.")
+@click.option("--kernel", metavar="NAME", help="Show one kernel: beams, primary, second, thin or shade.")
 @click.option("--pass", "pass_name", metavar="NAME", help="Show it after this pass ('traced': before the first).")
 @click.option("--passes", is_flag=True, help="Show it after each pass that changes it.")
 @click.option("--target", metavar="CODE", help="Show the code made of it: llvm or asm.")
@@ -60,20 +60,20 @@ def command(
 
 def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
     """What traces each kernel of a frame, by name, in the order they run."""
-    from zeroset.render.primary import beam_kernel, camera_ray, second_kernel, trace_kernel
     from zeroset.render.shading import shade_kernel
-    from zeroset.scene.clip import bounds_kind
+    from zeroset.render.tracer import Tracer
+    from zeroset.runtime import get_device
 
-    field, offset, proven = scene.surface.field, method.offset != 0.0, method.certified
-    kind = bounds_kind(scene.surface.fitted)
-    made: dict[str, Callable[[], Kernel]] = {}
-    if proven:
-        made["beams"] = lambda: beam_kernel(field, offset, kind)
-    made["primary"] = lambda: trace_kernel(field, method, kind, camera_ray, proven, proven)
-    if proven:
-        made["second"] = lambda: second_kernel(field, offset, kind, camera_ray)
-    made["shade"] = lambda: shade_kernel(len(scene.lights))
-    return made
+    # Nothing is run, so any device will do.
+    tracer = Tracer(scene.surface, method, get_device("interp"), pixels=True)
+    passes = {"beams": "beams", "primary": "first", "second": "second", "thin": "thin"}
+    if not method.certified:
+        passes = {"primary": "first"}
+    made: dict[str, Callable[[], Kernel]] = {
+        name: lambda own=own: tracer.kernel(own)  # type: ignore[misc]
+        for name, own in passes.items()
+    }
+    return made | {"shade": lambda: shade_kernel(len(scene.lights))}
 
 
 def _one_of(name: str, known: Iterable[str], what: str) -> str:

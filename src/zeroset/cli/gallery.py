@@ -14,7 +14,9 @@ COLUMNS = 8
 @click.command("gallery")
 @click.argument("name", required=False)
 @click.option("--sheet", metavar="FILE", help="Draw every surface into one picture.")
-@click.option("--cell", default=192, show_default=True, type=click.IntRange(32, 1024), help="Pixels a surface on the sheet.")
+@click.option(
+    "--cell", default=192, show_default=True, type=click.IntRange(32, 1024), help="Pixels a surface on the sheet."
+)
 @click.option("-m", "--method", default="auto", show_default=True, help="Ray method.")
 @click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
 def command(name: str | None, sheet: str | None, cell: int, method: str, device: str) -> None:
@@ -36,7 +38,9 @@ def _list() -> None:
         degree = str(item.degree) if item.degree else "-"
         papers = ", ".join(dict.fromkeys(source.paper for source in item.source))
         click.echo(f"{name:{width}}  {degree:>3}  {papers:10}  {item.title}")
-    click.echo(f"\n{len(names())} surfaces; any other Chmutov surface as chmutov-N. Draw one: zeroset render NAME -o out.png")
+    click.echo(
+        f"\n{len(names())} surfaces; any other Chmutov surface as chmutov-N. Draw one: zeroset render NAME -o out.png"
+    )
 
 
 def _describe(name: str) -> None:

@@ -36,6 +36,8 @@ class Progress:
             self._task = self._bar.add_task(self._what, total=1.0)
         self._bar.update(self._task, completed=share)
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         if self._bar is not None:
             self._bar.stop()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -38,7 +38,9 @@ if TYPE_CHECKING:
 @click.option("--height", type=float, help="World length across the picture, for an orthographic camera.")
 @click.option("--orbit", type=float, default=0.0, help="Turn the camera about z by so many degrees.")
 @click.option("--save-scene", metavar="FILE", help="Write the scene as a .toml file too.")
-@click.option("--save-outputs", metavar="FILE", help="Write depth, normal, status, steps and t as a NumPy .npz file too.")
+@click.option(
+    "--save-outputs", metavar="FILE", help="Write depth, normal, status, steps and t as a NumPy .npz file too."
+)
 def command(
     source: str,
     params: tuple[str, ...],
@@ -89,7 +91,8 @@ def _save(image: Image, scene: Scene, path: Path, save_scene: str | None, save_o
         from zeroset.render.image import AOVS
 
         with replacing(save_outputs) as file:
-            np.savez_compressed(file, **{name: image.aov(name) for name in AOVS})
+            outputs: dict[str, Any] = {name: image.aov(name) for name in AOVS}
+            np.savez_compressed(file, **outputs)
 
 
 def _tell(image: Image, path: Path, spent: float, bounds: Bounds) -> None:

@@ -1,4 +1,4 @@
-"""What users name on the command line, a formula, a gallery name or a scene file, and options that several commands share."""
+"""What users name on the command line: a formula, a gallery name or a scene file, and options of several commands."""
 
 from __future__ import annotations
 
@@ -63,7 +63,9 @@ def _parameter(text: str) -> tuple[str, Any]:
             raise ValueError
         numbers = [float(part) for part in value.split(",")]
     except ValueError:
-        raise ParameterError(f"cannot read the parameter {text!r}", hint="write name=number, or name=1,2,3 for an array") from None
+        raise ParameterError(
+            f"cannot read the parameter {text!r}", hint="write name=number, or name=1,2,3 for an array"
+        ) from None
     return name.strip(), numbers if "," in value else numbers[0]
 
 
@@ -93,11 +95,19 @@ def read_triple(text: str, what: str) -> tuple[float, float, float]:
 
 
 def choose_camera(
-    scene: Scene, eye: str | None, target: str | None, up: str | None, fov: float | None, height: float | None, orbit: float
+    scene: Scene,
+    eye: str | None,
+    target: str | None,
+    up: str | None,
+    fov: float | None,
+    height: float | None,
+    orbit: float,
 ) -> Camera:
     """The scene's camera with what the user changed of it."""
     if fov is not None and height is not None:
-        raise CameraError("a camera has either a fov or a height", hint="fov is for perspective, height for orthographic")
+        raise CameraError(
+            "a camera has either a fov or a height", hint="fov is for perspective, height for orthographic"
+        )
     camera = scene.camera or scene.surface.camera or fit_camera(scene.surface.fitted)
     places = {"eye": eye, "target": target, "up": up}
     changes: dict[str, Any] = {k: read_triple(v, f"the {k}") for k, v in places.items() if v is not None}
@@ -150,7 +160,13 @@ def surface_options(function: F) -> F:
             click.argument("source", metavar="FORMULA|NAME|FILE"),
             click.option("-p", "--param", "params", multiple=True, metavar="NAME=VALUE", help="Value of a parameter."),
             click.option("-b", "--bounds", metavar="R|X0,...,Z1", help="Ball radius, or x0,y0,z0,x1,y1,z1."),
-            click.option("-m", "--method", default="auto", show_default=True, help="Ray method; options after a colon: marching-points:test=taylor,steps=200."),
+            click.option(
+                "-m",
+                "--method",
+                default="auto",
+                show_default=True,
+                help="Ray method; options after a colon: marching-points:test=taylor,steps=200.",
+            ),
             click.option("-d", "--device", default="auto", show_default=True, help="Where to run."),
         )
     ):

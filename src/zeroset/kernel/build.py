@@ -61,7 +61,9 @@ class KernelBuilder:
         self._scope.__enter__()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         assert self._scope is not None
         self._scope.__exit__(kind, error, trace)
         if error is None:
@@ -164,8 +166,10 @@ def for_(count: Scalar, body: Callable[..., object], *state: Value) -> tuple[Val
     return emit("for", (lift(count, U32), *state), (), types, (loop,))
 
 
-def if_(condition: Value, then: Callable[[], object], otherwise: Callable[[], object] | None = None) -> tuple[Value, ...]:
-    """Run ``then()`` on the lanes where the condition holds and ``otherwise()`` on the others; both give the same types."""
+def if_(
+    condition: Value, then: Callable[[], object], otherwise: Callable[[], object] | None = None
+) -> tuple[Value, ...]:
+    """Run ``then()`` where the condition holds and ``otherwise()`` on the other lanes; both give the same types."""
     yes, given = _region((), then)
     no, other = _region((), otherwise or (lambda: ()))
     types = tuple(v.type for v in (*given, *other)[: len(given)] if isinstance(v, Value))

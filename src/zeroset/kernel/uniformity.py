@@ -39,7 +39,9 @@ def _instruction(instruction: Instruction, varying: set[int]) -> None:
             _block(region, varying)
         branch = _differs(instruction.operands[0], varying)
         yes, no = instruction.regions
-        flags = [branch or _differs(a, varying) or _differs(b, varying) for a, b in zip(yes.yields, no.yields, strict=True)]
+        flags = [
+            branch or _differs(a, varying) or _differs(b, varying) for a, b in zip(yes.yields, no.yields, strict=True)
+        ]
         _mark(instruction.results, flags, varying)
     elif op == "index" or op.startswith("atomic"):
         _mark(instruction.results, [True], varying)

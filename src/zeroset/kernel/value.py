@@ -27,7 +27,12 @@ class Instruction:
     __slots__ = ("attributes", "op", "operands", "regions", "results")
 
     def __init__(
-        self, op: str, operands: tuple[Value, ...], attributes: tuple[Any, ...], types: tuple[Type, ...], regions: tuple[Block, ...] = ()
+        self,
+        op: str,
+        operands: tuple[Value, ...],
+        attributes: tuple[Any, ...],
+        types: tuple[Type, ...],
+        regions: tuple[Block, ...] = (),
     ) -> None:
         self.op = op
         self.operands = operands
@@ -67,7 +72,11 @@ def tracing(block: Block) -> Iterator[Block]:
 
 
 def emit(
-    op: str, operands: tuple[Value, ...], attributes: tuple[Any, ...], types: tuple[Type, ...], regions: tuple[Block, ...] = ()
+    op: str,
+    operands: tuple[Value, ...],
+    attributes: tuple[Any, ...],
+    types: tuple[Type, ...],
+    regions: tuple[Block, ...] = (),
 ) -> tuple[Value, ...]:
     """Append an instruction to the block being traced, or find the equal one already in scope."""
     if not _trace.blocks:

@@ -89,7 +89,11 @@ def cast(
     starts, ways = _rays(origins, directions)
     bounds = shown.fitted
     uniforms = bounds_uniforms(bounds) | parameter_uniforms(shown, chosen)
-    uniforms |= {"tolerance": world_tolerance(tolerance, bounds), "near": _end(t_min, "t_min"), "far": _end(t_max, "t_max")}
+    uniforms |= {
+        "tolerance": world_tolerance(tolerance, bounds),
+        "near": _end(t_min, "t_min"),
+        "far": _end(t_max, "t_max"),
+    }
     tracer = Tracer(shown, chosen, target, pixels=False)
     buffers = tracer.buffers(len(starts), 0) | _ray_buffers(target, starts, ways)
     bound = tracer.begin(shown, uniforms, buffers, 0)
@@ -113,13 +117,18 @@ def _rays(origins: npt.ArrayLike, directions: npt.ArrayLike) -> tuple[npt.NDArra
     starts, ways = _points(origins, "origins"), _points(directions, "directions")
     if len(starts) != len(ways):
         if 1 not in (len(starts), len(ways)):
-            raise ArrayShapeError(f"there are {len(starts)} origins but {len(ways)} directions", hint="give as many of both, or one of either")
+            raise ArrayShapeError(
+                f"there are {len(starts)} origins but {len(ways)} directions",
+                hint="give as many of both, or one of either",
+            )
         starts, ways = np.broadcast_arrays(starts, ways)
     lengths = np.max(np.abs(ways), axis=1) if len(ways) else np.ones(0)
     if np.any(lengths < 1e-15) or np.any(lengths > 1e15):
         bad = int(np.flatnonzero((lengths < 1e-15) | (lengths > 1e15))[0])
         what = "zero" if lengths[bad] == 0 else "too short or too long"
-        raise ArrayShapeError(f"direction {bad} is {what}: {ways[bad].tolist()}", hint="directions may have any length from 1e-15 to 1e15")
+        raise ArrayShapeError(
+            f"direction {bad} is {what}: {ways[bad].tolist()}", hint="directions may have any length from 1e-15 to 1e15"
+        )
     return starts, ways
 
 
@@ -153,4 +162,3 @@ def _hits(device: Device, buffers: dict[str, Any], certified: bool) -> Hits:
     t = np.where(status == MISS, np.float32(np.nan), read["t"])
     normal = np.stack([read["nx"], read["ny"], read["nz"]], axis=-1)
     return Hits(t, status, normal, read["steps"].copy(), certified)
-

@@ -1,8 +1,8 @@
 """A frame: the tracer's passes and shading over buffers that live as long as the frame is reused.
 
-A ``Frame`` belongs to one structure (what shapes its kernels, its size and device). Parameters, bounds, camera, colours
-and tolerances are uniforms: drawing again allocates and compiles nothing. An ``Image`` shares the frame's G-buffer until
-the next draw, and is given its own copy only then, and only if somebody still holds it.
+A ``Frame`` belongs to one structure (what shapes its kernels, its size and device). Parameters, bounds, camera,
+colours and tolerances are uniforms: drawing again allocates and compiles nothing. An ``Image`` shares the frame's
+G-buffer until the next draw, and is given its own copy only then, and only if somebody still holds it.
 """
 
 from __future__ import annotations

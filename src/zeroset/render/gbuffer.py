@@ -17,8 +17,8 @@ FIELDS = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32
 SECOND = {"second_lane": U32, "second_clear": F32}
 """Rays left unresolved: which, and from where on."""
 THIN = {"block_missed": U32, "thin_block": U32}
-"""One element for each block of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and the list
-of those blocks that may hold something thinner than a pixel."""
+"""One element for each block of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and the
+list of those blocks that may hold something thinner than a pixel."""
 COUNTERS = "counters"
 """How long the lists are: the second look's, the thin parts'."""
 

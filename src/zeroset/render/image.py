@@ -111,7 +111,9 @@ class Image:
                 ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved) or ``steps``.
         """
         if name not in AOVS:
-            raise ZerosetError(f"there is no output {name!r}", hints=(*did_you_mean(name, AOVS), f"there are {', '.join(AOVS)}"))
+            raise ZerosetError(
+                f"there is no output {name!r}", hints=(*did_you_mean(name, AOVS), f"there are {', '.join(AOVS)}")
+            )
         if name == "normal":
             return np.stack([self._outputs.rows(axis) for axis in NORMAL], axis=-1)
         if name in ("t", "depth"):

@@ -40,8 +40,10 @@ def given_ray(builder: KernelBuilder, lane: Value) -> Ray:
     return Ray(origin, direction)
 
 
-def _problem(builder: KernelBuilder, lowered: Lowered, kind: str, ray: Ray, near: Value, far: Value, step: Value | None) -> Problem:
-    """The search inside the bounds and between near and far; a step of an eighth of the stretch where none is given."""
+def _problem(
+    builder: KernelBuilder, lowered: Lowered, kind: str, ray: Ray, near: Value, far: Value, step: Value | None
+) -> Problem:
+    """The search inside the bounds, from near to far; a step of an eighth of the stretch where none is given."""
     t0, t1 = clip(builder, kind, ray.origin, ray.direction)
     t0, t1 = t0.maximum(near), t1.minimum(far)
     d = ray.direction
@@ -58,7 +60,7 @@ def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
 
 
 def trace_kernel(field: Field, method: Method, kind: str, make_ray: RayMaker, beams: bool, second: bool) -> Kernel:
-    """One search a ray; with ``beams`` it starts where its tile's beam ended, with ``second`` it may ask for another."""
+    """One search a ray; ``beams``: it starts where its tile's beam ended; ``second``: it may ask for a second look."""
     with KernelBuilder("primary" if make_ray is camera_ray else "cast") as builder:
         lane = builder.index() + builder.uniform("first", U32)
         lowered = Lowered(field, builder, offset=method.offset != 0.0)

@@ -107,7 +107,9 @@ def _layout(size: tuple[int, int] | int) -> Layout:
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise ZerosetError(f"the size must be from 1 to {LARGEST} pixels a side, not {width}x{height}")
     if width * height > MOST_PIXELS:
-        raise ZerosetError(f"{width}x{height} are more than {MOST_PIXELS:,} pixels", hint="8192x8192 is the largest square")
+        raise ZerosetError(
+            f"{width}x{height} are more than {MOST_PIXELS:,} pixels", hint="8192x8192 is the largest square"
+        )
     return Layout(width, height)
 
 
@@ -116,7 +118,7 @@ def world_tolerance(value: float | None, bounds: Bounds) -> float:
     if value is None:
         return default_tolerance(bounds)
     length = number(value, "the tolerance", ParameterError)
-    if not SMALLEST <= length:
+    if not length >= SMALLEST:
         raise ParameterError(f"the tolerance must be at least {SMALLEST:g}, not {value!r}")
     return length
 

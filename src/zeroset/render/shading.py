@@ -53,7 +53,9 @@ def srgb(linear: float) -> float:
 
 def shading_uniforms(material: Material, lights: Sequence[Light], background: Color, rays: Rays) -> dict[str, float]:
     """Numbers of the shading pass by uniform name; headlights are turned into world directions here."""
-    named = {f"{side}_{c}": v for side in ("front", "back") for c, v in zip("rgb", getattr(material, side), strict=True)}
+    named = {
+        f"{side}_{c}": v for side in ("front", "back") for c, v in zip("rgb", getattr(material, side), strict=True)
+    }
     named |= {f"background_{c}": srgb(v) for c, v in zip("rgb", background, strict=True)}
     named |= {name: getattr(material, name) for name in ("ambient", "diffuse", "specular", "shininess")}
     for i, light in enumerate(lights):

@@ -1,8 +1,9 @@
 """Thin parts: what of the surface lies between the rays because it is thinner than a pixel.
 
 Down to lines and points without any thickness, such as Steiner's axes (SN10 figure 6, K09 figure 6). The same kernel
-runs twice. First a lane is a block of 4x4 pixels of which a ray missed: the few blocks that may hold something thin go
-on a list. Then a lane is a pixel of those blocks; where its own beam may hold something thin it is drawn, as UNRESOLVED.
+runs twice. First a lane is a block of 4x4 pixels of which a ray missed: the few blocks that may hold something thin
+go on a list. Then a lane is a pixel of those blocks; where its own beam may hold something thin it is drawn, as
+UNRESOLVED.
 """
 
 from __future__ import annotations

@@ -18,7 +18,9 @@ VECTORS = ("eye", "right_origin", "up_origin", "forward", "right", "up")
 
 def camera_uniforms(rays: Rays) -> dict[str, float]:
     """The camera's numbers by uniform name."""
-    return {f"{name}_{axis}": vector[i] for name, vector in zip(VECTORS, rays, strict=True) for i, axis in enumerate("xyz")}
+    return {
+        f"{name}_{axis}": vector[i] for name, vector in zip(VECTORS, rays, strict=True) for i, axis in enumerate("xyz")
+    }
 
 
 def _vector(builder: KernelBuilder, name: str) -> list[Value]:

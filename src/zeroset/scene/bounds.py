@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 
@@ -112,7 +112,7 @@ class Box:
         return 0.5 * self.extent
 
 
-Bounds = Union[Ball, Box]
+Bounds = Ball | Box
 
 
 def parse_bounds(value: Any) -> Bounds | None:

@@ -60,4 +60,6 @@ def as_scene(value: Surface | Scene | str) -> Scene:
         return Scene(value)
     if isinstance(value, str):
         return Scene(surface(value))
-    raise ZerosetError(f"cannot draw something of type {type(value).__name__}", hint="give a Surface, a Scene or a formula as text")
+    raise ZerosetError(
+        f"cannot draw something of type {type(value).__name__}", hint="give a Surface, a Scene or a formula as text"
+    )

@@ -7,9 +7,8 @@ copies, and a copy that differs only in numbers runs on the same compiled kernel
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -17,11 +16,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.errors import ArrayShapeError, FormulaError, FormulaLimitError, ParameterError, did_you_mean
+from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, did_you_mean
 from zeroset.expr import OPS, Expr, degree, evaluate, parse, postorder, text
 from zeroset.expr.text import brief
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.parameters import TIME, array, check_names, scalar
 
 if TYPE_CHECKING:
     import sympy
@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 MOST_WORK = 4000
 """Operations up to which a formula is compiled, functions counted several times: about half a minute."""
 _FUNCTION_WORK = 8
-
-TIME = "w"
-"""The fourth variable: a uniform like any parameter, 0 unless it is given."""
 
 
 @dataclass(frozen=True)
@@ -95,17 +92,17 @@ class Surface:
     """
 
     field: ExprField
-    params: Mapping[str, float] = field(default_factory=dict)
-    arrays: Mapping[str, npt.NDArray[np.float64]] = field(default_factory=dict)
+    params: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    arrays: Mapping[str, npt.NDArray[np.float64]] = dataclasses.field(default_factory=dict)
     bounds: Bounds | None = None
     camera: Camera | None = None
     name: str = ""
 
     def __post_init__(self) -> None:
         params = {TIME: 0.0} if TIME in self.field.parameters else {}
-        params |= {k: _number(k, v) for k, v in self.params.items()}
-        arrays = {k: _array(k, v) for k, v in self.arrays.items()}
-        _check_names(self.field, params, arrays)
+        params |= {k: scalar(k, v) for k, v in self.params.items()}
+        arrays = {k: array(k, v) for k, v in self.arrays.items()}
+        check_names(self.field, params, arrays)
         object.__setattr__(self, "params", MappingProxyType(params))
         object.__setattr__(self, "arrays", MappingProxyType(arrays))
 
@@ -145,7 +142,7 @@ class Surface:
         """Raise ``FormulaLimitError`` for a formula that no compiler digests while somebody waits."""
         if self.field.work > MOST_WORK:
             raise FormulaLimitError(
-                f"the formula has too many operations to be drawn: {self.field.work:,} where {MOST_WORK:,} are the limit",
+                f"the formula has too many operations to be drawn: {self.field.work:,} of at most {MOST_WORK:,}",
                 hints=(
                     "put repeated data (such as sphere centres) into an array parameter: sum(i, ... c[i] ...)",
                     "draw parts of it as surfaces of their own",
@@ -166,51 +163,6 @@ class Surface:
 
     def __repr__(self) -> str:
         return f"<zeroset.Surface {self.name or brief(self.field.expr, 60)!r}>"
-
-
-def _number(name: str, value: Any) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ParameterError(f"the parameter {name} must be a number, not {value!r}") from None
-    if not math.isfinite(number) or abs(number) > 1e30:
-        raise ParameterError(f"the parameter {name} must be finite and below 1e30, not {number!r}")
-    return number
-
-
-def _array(name: str, value: Any) -> npt.NDArray[np.float64]:
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ArrayShapeError(f"the array parameter {name} must hold numbers") from None
-    if array.ndim != 1 or not len(array):
-        raise ArrayShapeError(f"the array parameter {name} must be one row of numbers, not of shape {array.shape}")
-    if not np.all(np.abs(array) <= 1e30):
-        raise ArrayShapeError(f"the array parameter {name} must be finite")
-    array.flags.writeable = False
-    return array
-
-
-def _check_names(field: ExprField, params: Mapping[str, float], arrays: Mapping[str, Any]) -> None:
-    for wanted, given, what in ((field.parameters, params, "parameter"), (field.arrays, arrays, "array parameter")):
-        missing = sorted(wanted - set(given))
-        if missing:
-            raise ParameterError(f"the {what} {missing[0]} has no value", hint=f"give it one: params={{{missing[0]!r}: ...}}")
-        extra = sorted(set(given) - wanted - {TIME})
-        if extra:
-            raise ParameterError(
-                f"the formula has no {what} {extra[0]!r}", hints=did_you_mean(extra[0], field.parameters | field.arrays)
-            )
-    for group in index_groups(field.expr):
-        lengths = {len(arrays[name]) for name in group}
-        if len(lengths) > 1:
-            raise ArrayShapeError(f"arrays summed over together must be equally long: {', '.join(sorted(group))}")
-
-
-def index_groups(expr: Expr) -> list[frozenset[str]]:
-    """Array parameters that share a sum's index, sum by sum."""
-    # A sum's data are its index and the arrays that it runs over.
-    return [frozenset(str(name) for name in part.data[1:]) for part in postorder(expr) if part.op == "sum"]
 
 
 def _is_array(value: Any) -> bool:
@@ -245,7 +197,9 @@ def surface(
         5.0
     """
     if params is not None and not isinstance(params, Mapping):
-        raise ParameterError(f"params must be a mapping of names to values, not {params!r}", hint="try params={'a': 1.0}")
+        raise ParameterError(
+            f"params must be a mapping of names to values, not {params!r}", hint="try params={'a': 1.0}"
+        )
     values = dict(params or {})
     limits = parse_bounds(bounds)
     if isinstance(source, Surface):

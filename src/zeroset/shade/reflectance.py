@@ -27,7 +27,10 @@ def normalised(a: Sequence[Value]) -> list[Value]:
 
 
 def blinn_phong(
-    uniform: Callable[[str], Value], normal: Sequence[Value], toward_eye: Sequence[Value], lights: Sequence[Sequence[Value]]
+    uniform: Callable[[str], Value],
+    normal: Sequence[Value],
+    toward_eye: Sequence[Value],
+    lights: Sequence[Sequence[Value]],
 ) -> Color:
     """Colour of a point.
 

@@ -5,10 +5,13 @@ order in which they are listed to users.
 """
 
 from zeroset.solve.certified import Affine, Auto, Interval
+
 from zeroset.solve.analytic import Analytic  # isort: skip
 from zeroset.solve.mitchell import Mitchell
+
 from zeroset.solve.exact import MitchellExact  # isort: skip
 from zeroset.solve.sampling import AdaptiveMarchingPoints, MarchingPoints
+
 from zeroset.solve.method import METHODS, Method, resolve_method  # isort: skip
 
 __all__ = [

@@ -17,7 +17,7 @@ from zeroset.kernel import U32, Value, constant
 from zeroset.solve.field import Field
 from zeroset.solve.method import Method, register
 from zeroset.solve.problem import HIT, MISS, Answer, Problem
-from zeroset.solve.raypoly import FORMAT, SYSTEM, Factored, as_value, factor, ray_polynomial
+from zeroset.solve.raypoly import SYSTEM, Factored, as_value, factor, ray_polynomial
 from zeroset.solve.search import search
 from zeroset.solve.walk import Striding
 
@@ -32,15 +32,19 @@ class Analytic(Method):
     summary: ClassVar[str] = "closed-form roots for degree <= 4, proven or handed to the affine search (SN10 4.1)"
 
     def check(self, field: Field) -> None:
+        """Refuse what is no polynomial of low degree."""
         if field.degree is None or not 1 <= field.degree <= 4:
             what = "no polynomial" if field.degree is None else f"of degree {field.degree}"
-            raise MethodError(f"analytic needs a polynomial of degree 1 to 4; this surface is {what}", hint="method='auto' treats any")
+            raise MethodError(
+                f"analytic needs a polynomial of degree 1 to 4; this surface is {what}", hint="method='auto' treats any"
+            )
 
     def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root."""
         degree = problem.lowered.field.degree
         assert degree is not None
         closed = closed_form(problem, degree)
-        system = AffineSystem(FORMAT, symbols=1)
+        system = AffineSystem(problem.fmt, symbols=1)
         rest = search(problem, system, Striding(), ~closed.proven)
         status = closed.proven.select(closed.status, rest.status)
         return Answer(closed.proven.select(closed.t, rest.t), status, rest.steps + 1, rest.clear)
@@ -77,7 +81,7 @@ def closed_form(problem: Problem, degree: int) -> _Closed:
 
 
 def _first_candidate(factored: Factored) -> Value:
-    """The least candidate root in [-1, 1]; 2 where there is none. Enclosures that stick out to the left count from -1."""
+    """The least candidate root in [-1, 1]; 2 where there is none."""
     least: Value | None = None
     for root, real in factored.roots():
         middle = (as_value(root.lo) + as_value(root.hi)) * 0.5
@@ -88,7 +92,7 @@ def _first_candidate(factored: Factored) -> Value:
 
 
 def _magnitude(factored: Factored, end: Value) -> Value:
-    """A lower bound of |product| on [-1, end]; 0 where it may vanish, negative numbers for an empty stretch never pass."""
+    """A lower bound of |product| on [-1, end]; 0 where it may vanish."""
     stretch = SYSTEM.bounds(constant(-1.0, end.type), end.maximum(-1.0))
     over = factored.over(stretch)
     low, high = as_value(over.lo), as_value(over.hi)

@@ -5,8 +5,8 @@ enclosed over the whole beam between two values of t, and what is excluded there
 beam strides from the near end; once its step comes down to about its own width it stops, and the tile's rays start
 there. A tile whose beam reaches the far end has no hit at all.
 
-A beam of one pixel finds what a ray through the pixel's middle cannot: parts of the surface thinner than a pixel, down to
-Steiner's axes, which have no thickness at all (SN10 figure 6, K09 figure 6).
+A beam of one pixel finds what a ray through the pixel's middle cannot: parts of the surface thinner than a pixel, down
+to Steiner's axes, which have no thickness at all (SN10 figure 6, K09 figure 6).
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ class Patch:
     def excludes(self, point: Sequence[Any]) -> Value:
         """Whether f certainly has no zero inside the bounds at these points."""
         f = self.lowered.evaluate(self.system, *point)
-        return ~f.contains_zero() | self.outside(point)
+        excluded: Value = ~f.contains_zero() | self.outside(point)
+        return excluded
 
 
 def trace_beam(patch: Patch, near: Value, far: Value, finest: Value) -> Beam:
@@ -133,4 +134,5 @@ def _flat_across(patch: Patch, t: Any) -> Value:
 
     moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
     f = patch.lowered.evaluate(dual, *moved)
-    return f.derivative(0).contains_zero() & f.derivative(1).contains_zero()
+    flat: Value = f.derivative(0).contains_zero() & f.derivative(1).contains_zero()
+    return flat

@@ -43,6 +43,7 @@ class _Bisection(Method):
         raise NotImplementedError
 
     def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root."""
         walk: Walk = AxisBisecting() if self.axis == "k" else Bisecting()
         return search(problem, self.system(problem.fmt), walk, delta=self.option(problem, "delta"))
 
@@ -56,6 +57,7 @@ class Interval(_Bisection):
     summary: ClassVar[str] = "interval arithmetic, bisecting t or the dominant axis (K09 4.2, 5.5)"
 
     def system(self, fmt: Format) -> Any:
+        """The number system that encloses f."""
         return IntervalSystem(fmt)
 
 
@@ -68,6 +70,7 @@ class Affine(_Bisection):
     summary: ClassVar[str] = "reduced affine arithmetic, bisecting t or the dominant axis (K09 3.3, 5.3, 5.5)"
 
     def system(self, fmt: Format) -> Any:
+        """The number system that encloses f."""
         return AffineSystem(fmt, symbols=1)
 
 
@@ -81,5 +84,5 @@ class Auto(Method):
     summary: ClassVar[str] = "picks by degree and operators; always certified"
 
     def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root."""
         return search(problem, automatic_system(problem.lowered.field, problem.fmt), Striding())
-

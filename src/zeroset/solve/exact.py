@@ -33,6 +33,7 @@ class MitchellExact(Method):
     summary: ClassVar[str] = "exact extension from critical points, degree <= 5 (SN10 4.2)"
 
     def check(self, field: Field) -> None:
+        """Refuse what is no polynomial of low degree."""
         if field.degree is None or not 1 <= field.degree <= 5:
             what = "no polynomial" if field.degree is None else f"of degree {field.degree}"
             raise MethodError(
@@ -41,6 +42,7 @@ class MitchellExact(Method):
             )
 
     def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root."""
         degree = problem.lowered.field.degree
         assert degree is not None
         polynomial = ray_polynomial(problem, degree)

@@ -18,6 +18,7 @@ Number = Any
 OFFSET = "offset of f"
 """Parameter that no formula can name: what the offset option takes off f."""
 
+
 def parameter_names(name: str, type_: Type) -> tuple[str, str]:
     """The uniforms that hold a parameter, as a kernel of one scalar type reads it: value and storage error."""
     return f"p_{name}_{type_}", f"p_{name}_{type_}_error"

@@ -16,6 +16,7 @@ from zeroset.kernel import BOOL, U32, Value, constant, if_, lift, while_
 from zeroset.solve.method import Method, register
 from zeroset.solve.problem import HIT, MISS, UNRESOLVED, Answer, Problem
 
+
 def sign_of(problem: Problem, interval: Any) -> Value:
     """+1 or -1 where an enclosure has one certain sign, else 0."""
     low, high = problem.lift(interval.lo), problem.lift(interval.hi)
@@ -32,6 +33,7 @@ class Mitchell(Method):
     summary: ClassVar[str] = "interval gradient isolates monotone pieces, then refines (K09 6.1.3)"
 
     def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root."""
         return isolate(problem, _IntervalPieces(problem))
 
 
@@ -67,7 +69,9 @@ def isolate(problem: Problem, pieces: Any) -> Answer:
     """
     tolerance = problem.tolerance
 
-    def running(a: Value, h: Value, b: Value, slope: Value, status: Value, t: Value, done: Value, steps: Value) -> Value:
+    def running(
+        a: Value, h: Value, b: Value, slope: Value, status: Value, t: Value, done: Value, steps: Value
+    ) -> Value:
         return ~done
 
     def search(a: Value, h: Value) -> tuple[Value, ...]:

@@ -4,8 +4,8 @@ Evaluating f on polynomials in one symbol gives its coefficients along the ray, 
 known. The ray's stretch is mapped to e in [-1, 1] first: coefficients then share one scale. ``factor`` writes a
 polynomial of degree <= 4 as a product of real quadratics (Herbison-Evans and Ferrari for the quartic, Blinn's cases
 for the cubic). The factors are plain numbers with rounding in them; ``residual`` bounds what the product misses of the
-polynomial, and with that every conclusion drawn from the factors is made certain or withheld. All of it runs in f32: rays that it cannot
-settle are looked at again by other means.
+polynomial, and with that every conclusion drawn from the factors is made certain or withheld. All of it runs in f32:
+rays that it cannot settle are looked at again by other means.
 """
 
 from __future__ import annotations
@@ -140,7 +140,7 @@ Factor = Quadratic | Linear
 
 @dataclass(frozen=True, slots=True)
 class Factored:
-    """leading * product of monic factors = the polynomial, but for ``residual``, which bounds |difference| on [-1, 1]."""
+    """leading * product of monic factors = the polynomial within ``residual``, for e in [-1, 1]."""
 
     leading: Value
     factors: tuple[Factor, ...]
@@ -253,7 +253,7 @@ def _quartic(m: list[Value]) -> tuple[Factor, ...]:
     depressed_q = -q * q + third * (2.0 * third * third - a1)
     u = (largest_real_root(depressed_p, depressed_q) - third).maximum(0.0)
     s = u.sqrt()
-    # q/s loses its digits for small s; there the quadratics' constants differ by sqrt of the biquadratic's discriminant.
+    # q/s loses its digits for small s; there the constants differ by the root of the biquadratic's discriminant.
     biquadratic = (p * p * 0.25 - r).maximum(0.0).sqrt()
     skew = (u > 1e-6).select(q / (s > 1e-10).select(s, 1.0) * 0.5, biquadratic)
     centre = (p + u) * 0.5
@@ -269,4 +269,3 @@ def _shifted(b: Value, c: Value, shift: Value) -> Quadratic:
 
 
 _FACTORINGS = {1: _linear, 2: _quadratic, 3: _cubic, 4: _quartic}
-

@@ -117,6 +117,7 @@ class MarchingPoints(_Marching):
     summary: ClassVar[str] = "equal steps, sign or Taylor test (SN10 3.3)"
 
     def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root."""
         samples = _Samples(problem, self.test == "taylor")
         length = problem.t1 - problem.t0
         width = length / self.step_count(problem)
@@ -158,6 +159,7 @@ class AdaptiveMarchingPoints(_Marching):
     silhouettes: bool = True
 
     def trace(self, problem: Problem) -> Answer:
+        """Emit the search for the first root."""
         samples = _Samples(problem, self.test == "taylor" or self.silhouettes)
         tau1, tau2, epsilon = (self.option(problem, name) for name in ("tau1", "tau2", "epsilon"))
         basic = (problem.t1 - problem.t0) / self.step_count(problem)

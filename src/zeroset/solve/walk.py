@@ -49,30 +49,37 @@ class Striding:
     """Steps of free length: doubled after an empty interval, cut to the candidates otherwise. State: a, h."""
 
     def start(self, problem: Problem) -> State:
+        """The whole stretch, or its first step."""
         return problem.t0, problem.step.minimum(problem.t1 - problem.t0).maximum(problem.tolerance)
 
     def interval(self, problem: Problem, state: State) -> tuple[Value, Value]:
+        """Where to look next."""
         a, h = state
         return a, (a + h).minimum(problem.t1)
 
     def leave(self, problem: Problem, state: State, b: Value, leaf: Value) -> State:
+        """Go on behind the interval."""
         return b, leaf.select(problem.tolerance, state[1] * 2.0)
 
     def narrow(self, problem: Problem, state: State, left: Value, right: Value) -> State:
+        """Go into the interval."""
         width = right - left
         # A cut to less than half is worth trusting: examine just the candidates. Otherwise bisect.
         good = width < state[1] * 0.5
         return left, good.select(width, width * 0.5).maximum(problem.tolerance)
 
     def narrowest(self, problem: Problem, state: State, width: Value) -> Value:
+        """Whether it is as narrow as the tolerance asks."""
         # b = a + h is rounded, so the narrowest step may come out a little wider than the tolerance.
         return width <= problem.tolerance * 1.25
 
     def deepest(self, state: State) -> Value:
+        """Whether the tree has no deeper level."""
         # A stride never falls below the tolerance.
         return constant(True, BOOL)
 
     def ended(self, problem: Problem, state: State) -> Value:
+        """Whether nothing is left."""
         return state[0] >= problem.t1
 
 
@@ -89,7 +96,7 @@ def _depth(length: Value, tolerance: Value) -> Value:
 
 
 def _next(k: Value, d: Value) -> tuple[Value, Value]:
-    """The dyadic interval after (k, d): go up while this was a second child. K09 does it by floating-point remainders."""
+    """The dyadic interval after (k, d): go up while this was a second child (K09: by floating-point remainders)."""
     k = k + 1
     low = (k & (constant(0, I32) - k)).convert(F32).bitcast(I32)
     twos = ((low >> 23) - 127).minimum(d)
@@ -101,6 +108,7 @@ class Bisecting:
     """The dyadic tree over [t0, t1]. State: place k and depth d (i32): [t0 + k 2^-d L, t0 + (k+1) 2^-d L]."""
 
     def start(self, problem: Problem) -> State:
+        """The whole stretch, or its first step."""
         return constant(0, I32), constant(0, I32)
 
     def _at(self, problem: Problem, k: Value, d: Value) -> Value:
@@ -108,23 +116,29 @@ class Bisecting:
         return _place(problem, k, d).fma(problem.t1 - problem.t0, problem.t0)
 
     def interval(self, problem: Problem, state: State) -> tuple[Value, Value]:
+        """Where to look next."""
         k, d = state
         return self._at(problem, k, d), self._at(problem, k + 1, d)
 
     def leave(self, problem: Problem, state: State, b: Value, leaf: Value) -> State:
+        """Go on behind the interval."""
         return _next(*state)
 
     def narrow(self, problem: Problem, state: State, left: Value, right: Value) -> State:
+        """Go into the interval."""
         k, d = state
         return k << 1, d + 1
 
     def narrowest(self, problem: Problem, state: State, width: Value) -> Value:
+        """Whether it is as narrow as the tolerance asks."""
         return state[1] >= _depth(problem.t1 - problem.t0, problem.tolerance)
 
     def deepest(self, state: State) -> Value:
+        """Whether the tree has no deeper level."""
         return state[1] >= DEEPEST
 
     def ended(self, problem: Problem, state: State) -> Value:
+        """Whether nothing is left."""
         return state[1].eq(0) & (state[0] > 0)
 
 
@@ -158,6 +172,7 @@ class AxisBisecting:
         return start, (d > 0.0).select(size, -size), problem.number(1.0) / d
 
     def start(self, problem: Problem) -> State:
+        """The whole stretch, or its first step."""
         return constant(0, I32), constant(0, I32)
 
     def _at(self, problem: Problem, k: Value, d: Value) -> Value:
@@ -167,6 +182,7 @@ class AxisBisecting:
         return ((slab - o) * inverse).maximum(problem.t0).minimum(problem.t1)
 
     def interval(self, problem: Problem, state: State) -> tuple[Value, Value]:
+        """Where to look next."""
         k, d = state
         # The tree's own ends are the stretch's ends: rounding in the grid must not cut the ray short.
         a = k.eq(0).select(problem.t0, self._at(problem, k, d))
@@ -174,17 +190,22 @@ class AxisBisecting:
         return a, last.select(problem.t1, self._at(problem, k + 1, d))
 
     def leave(self, problem: Problem, state: State, b: Value, leaf: Value) -> State:
+        """Go on behind the interval."""
         return _next(*state)
 
     def narrow(self, problem: Problem, state: State, left: Value, right: Value) -> State:
+        """Go into the interval."""
         k, d = state
         return k << 1, d + 1
 
     def narrowest(self, problem: Problem, state: State, width: Value) -> Value:
+        """Whether it is as narrow as the tolerance asks."""
         return (width <= problem.tolerance) | (state[1] >= DEEPEST)
 
     def deepest(self, state: State) -> Value:
+        """Whether the tree has no deeper level."""
         return state[1] >= DEEPEST
 
     def ended(self, problem: Problem, state: State) -> Value:
+        """Whether nothing is left."""
         return state[1].eq(0) & (state[0] > 0)

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
 
 import zeroset as zs
+from zeroset.bench import meter as module
 from zeroset.bench.meter import Meter
 from zeroset.runtime.cache import Cache
 from zeroset.runtime.cpu import CpuDevice
@@ -31,3 +37,25 @@ def test_pictures_are_those_of_the_wrapped_device() -> None:
     device = CpuDevice(cache=Cache(None))
     assert (zs.render(surface, 32, device=Meter(device)).pixels == zs.render(surface, 32, device=device).pixels).all()
     assert Meter(device).name == "cpu"
+
+
+def test_programs_obtained_at_once_are_timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    both_inside = threading.Barrier(2, timeout=30)
+    clock = iter([10.0, 13.0, 20.0, 21.0])
+    monkeypatch.setattr(module, "time", SimpleNamespace(perf_counter=lambda: next(clock)))
+
+    class Slow:
+        """A device whose compilers wait for one another."""
+
+        def compile(self, kernel: Any) -> Any:
+            both_inside.wait()
+
+    slow: Any = Slow()
+    meter = Meter(slow)
+    for _ in range(2):
+        other = threading.Thread(target=meter.compile, args=(None,))
+        other.start()
+        meter.compile(slow)
+        other.join()
+    assert meter.compilations == 4
+    assert meter.milliseconds == 4000.0

@@ -35,8 +35,8 @@ def test_unknown_commands(word: str, said: str, zeroset: Run) -> None:
 
 
 def test_hints_speak_of_options() -> None:
-    hint = "no value a=1\n  hint: params={'a': 1.0} or params={'c': [1.0, 2.0]}\n  hint: device=\"interp\", which needs none"
-    assert as_options(hint) == "no value a=1\n  hint: -p a=1.0 or -p c=1.0,2.0\n  hint: --device interp, which needs none"
+    hint = "no value a=1\n  hint: params={'a': 1.0} or params={'c': [1.0, 2.0]}\n  hint: device=\"interp\" needs none"
+    assert as_options(hint) == "no value a=1\n  hint: -p a=1.0 or -p c=1.0,2.0\n  hint: --device interp needs none"
     assert as_options("x\n  hint: method='auto' treats any") == "x\n  hint: --method auto treats any"
     assert as_options("x\n  hint: try up=(0, 0, 1)") == "x\n  hint: try --up 0,0,1"
     assert as_options("method='auto'") == "method='auto'"

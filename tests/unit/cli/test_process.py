@@ -33,7 +33,19 @@ def test_a_mistake_is_no_traceback(tmp_path: Path) -> None:
 def test_ctrl_c_in_the_middle_of_a_long_render(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(b"what was there")
     # Minutes of work, most of it inside compiled code.
-    command = [*COMMAND, "render", "sin(9x)*sin(8y)*sin(9z) = 0.2", "-b", "6", "-s", "8000", "-o", "a.png", "-t", "1e-7"]
+    command = [
+        *COMMAND,
+        "render",
+        "sin(9x)*sin(8y)*sin(9z) = 0.2",
+        "-b",
+        "6",
+        "-s",
+        "8000",
+        "-o",
+        "a.png",
+        "-t",
+        "1e-7",
+    ]
     command += ["-m", "marching-points:steps=50000"]
     process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     time.sleep(3)

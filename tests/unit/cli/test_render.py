@@ -39,7 +39,9 @@ def test_a_gallery_name_a_scene_file_and_what_changes_them(zeroset: Run, tmp_pat
 
 def test_parameters_and_the_camera(zeroset: Run, tmp_path: Path) -> None:
     view = ("--eye", "0,-5,0", "--target", "0,0,0.5", "--up", "0,0,1", "--fov", "30")
-    ran = zeroset("render", "x^2 + y^2 + z^2 = a", "-p", "a=0.25", *view, "-o", "a.png", "-s", "24", "--save-scene", "s.toml")
+    ran = zeroset(
+        "render", "x^2 + y^2 + z^2 = a", "-p", "a=0.25", *view, "-o", "a.png", "-s", "24", "--save-scene", "s.toml"
+    )
     assert ran.status == 0
     scene = zs.load(tmp_path / "s.toml")
     assert scene.surface.params["a"] == 0.25
@@ -47,7 +49,9 @@ def test_parameters_and_the_camera(zeroset: Run, tmp_path: Path) -> None:
     assert zeroset("render", "s.toml", "--height", "2", "-o", "b.png", "-s", "8", "--save-scene", "t.toml").status == 0
     assert zs.load(tmp_path / "t.toml").camera == zs.Camera((0, -5, 0), (0, 0, 0.5), (0, 0, 1), None, 2.0)
     blobs = "sum(i, 1/((x - c[i])^2 + y^2 + z^2)) = 4"
-    ran = zeroset("render", blobs, "-p", "c=-0.5,0.5", "-b", "-2,-2,-2,2,2,2", "-o", "c.png", "-s", "16", "--save-scene", "u.toml")
+    ran = zeroset(
+        "render", blobs, "-p", "c=-0.5,0.5", "-b", "-2,-2,-2,2,2,2", "-o", "c.png", "-s", "16", "--save-scene", "u.toml"
+    )
     assert ran.status == 0
     assert zs.load(tmp_path / "u.toml").surface.arrays["c"].tolist() == [-0.5, 0.5]
 

@@ -13,7 +13,7 @@ BALL = zs.surface("x^2 + y^2 + z^2 = 1", bounds=1.5)
 
 
 def test_shapes_and_types() -> None:
-    hits = zs.cast(BALL, np.zeros((4, 3)) + [0, 0, 3], [[0, 0, -1], [0, 0, 1], [0.1, 0, -1], [1, 0, 0]])
+    hits = zs.cast(BALL, np.tile([0, 0, 3], (4, 1)), [[0, 0, -1], [0, 0, 1], [0.1, 0, -1], [1, 0, 0]])
     assert hits.status.tolist() == [1, 0, 1, 0]
     assert (hits.t.shape, hits.t.dtype) == ((4,), np.float32)
     assert (hits.status.shape, hits.status.dtype) == ((4,), np.uint8)

@@ -71,7 +71,7 @@ def test_it_shows_itself_in_a_notebook(image: zs.Image) -> None:
 def test_other_formats_are_refused(image: zs.Image, name: str, tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="cannot tell a picture format"):
         image.save(tmp_path / name)
-    with pytest.raises(OutputError, match="use .png"):
+    with pytest.raises(OutputError, match=r"use \.png"):
         picture_format(name)
     assert list(tmp_path.iterdir()) == []
 

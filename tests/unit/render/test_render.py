@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
@@ -101,7 +102,7 @@ def test_progress_runs_from_nothing_to_all_and_may_stop_the_work() -> None:
     shares: list[float] = []
     watched = zs.render(TORUS, 100, SIDE, progress=shares.append)
     assert shares[0] == 0
-    assert all(a < b <= 1 for a, b in zip(shares, shares[1:], strict=False))
+    assert all(a < b <= 1 for a, b in itertools.pairwise(shares))
     assert len(shares) > 5
     assert np.array_equal(watched.pixels, zs.render(TORUS, 100, SIDE).pixels)
 

@@ -59,4 +59,10 @@ def test_bytes_are_rounded_and_packed_with_red_lowest() -> None:
     buffers["out"] = np.zeros(len(values), np.uint32)
     interp.run(builder.kernel, len(values), {}, buffers)
     rgba = buffers["out"].astype("<u4").view(np.uint8).reshape(-1, 4)
-    assert rgba.tolist() == [[0, 0, 0, 255], [255, 255, 255, 255], [255, 0, 0, 255], [128, 64, 255, 255], [0, 0, 1, 255]]
+    assert rgba.tolist() == [
+        [0, 0, 0, 255],
+        [255, 255, 255, 255],
+        [255, 0, 0, 255],
+        [128, 64, 255, 255],
+        [0, 0, 1, 255],
+    ]

@@ -25,7 +25,10 @@ class Known:
     def first(self, origins: Array, directions: Array, t_min: float = 0.0, t_max: float = np.inf) -> Array:
         """The first root inside the bounds and the range; nan where there is none."""
         o, d = origins.astype(np.float32).astype(float), directions.astype(np.float32).astype(float)
-        o, d = np.broadcast_to(o, np.broadcast_shapes(o.shape, d.shape)), np.broadcast_to(d, np.broadcast_shapes(o.shape, d.shape))
+        o, d = (
+            np.broadcast_to(o, np.broadcast_shapes(o.shape, d.shape)),
+            np.broadcast_to(d, np.broadcast_shapes(o.shape, d.shape)),
+        )
         t = np.sort(self.roots(o, d), axis=1)
         points = o[:, None] + t[..., None] * d[:, None]
         bounds = self.surface.fitted
@@ -78,7 +81,8 @@ KNOWN = {
     "plane": Known(zs.surface("z = 0.25", bounds=2.0), _levels(np.array([0.25]))),
     "sphere": Known(zs.surface("x^2 + y^2 + z^2 = r^2", {"r": 1.1}, bounds=2.0), _sphere(1.1)),
     "torus": Known(
-        zs.surface("(x^2 + y^2 + z^2 + 0.75)^2 = 4(x^2 + y^2)", bounds=zs.Box((-2, -2, -1), (2, 2, 1))), _torus(1.0, 0.5)
+        zs.surface("(x^2 + y^2 + z^2 + 0.75)^2 = 4(x^2 + y^2)", bounds=zs.Box((-2, -2, -1), (2, 2, 1))),
+        _torus(1.0, 0.5),
     ),
     "wave": Known(zs.surface("sin(4z) = 0.3", bounds=2.0), _levels(_wave)),
     "slab": Known(zs.surface("|z| = 0.5", bounds=zs.Box((-1, -1, -1), (1, 1, 1))), _levels(np.array([-0.5, 0.5]))),
