@@ -1,5 +1,8 @@
 """Bounds inside kernels: the stretch of a ray inside them, and whether a region lies outside them.
 
+A stretch is a hair longer than the exact one, by what rounding may have taken off it: a root just inside the bounds
+must not be lost, however far away the ray begins.
+
 The bounds' numbers are uniforms, so moving or resizing them never recompiles; only ball or box shapes the kernel.
 """
 
@@ -10,6 +13,9 @@ from typing import Any
 
 from zeroset.kernel import F32, KernelBuilder, Value
 from zeroset.scene.bounds import Ball, Bounds
+
+ROUNDING = 2.0**-21
+"""Covers the roundings of a stretch in f32, none of which is more than a few times 2^-24 of what goes in."""
 
 NAMES = ("bx0", "by0", "bz0", "bx1", "by1", "bz1")
 
@@ -46,8 +52,12 @@ def _clip_ball(bounds: list[Value], origin: Sequence[Value], direction: Sequence
     length = _dot(direction, direction)
     middle = _dot(to_center, direction) / length
     nearest = [c - middle * d for c, d in zip(to_center, direction, strict=True)]
-    inside = bounds[3] * bounds[3] - _dot(nearest, nearest)
-    half = (inside.maximum(0.0) / length).sqrt()
+    # Rounding moves the point and the middle no farther than this.
+    blur = sum((abs(c) + abs(middle * d) for c, d in zip(to_center, direction, strict=True)), start=bounds[3]) * ROUNDING
+    radius = bounds[3] + blur
+    inside = radius * radius - _dot(nearest, nearest)
+    along = _dot([abs(c) for c in to_center], [abs(d) for d in direction]) / length * ROUNDING
+    half = (inside.maximum(0.0) / length).sqrt() * (1.0 + ROUNDING) + along
     return middle - half, (inside > 0.0).select(middle + half, middle - half)
 
 
@@ -62,7 +72,7 @@ def _clip_box(bounds: list[Value], origin: Sequence[Value], direction: Sequence[
         high = a.maximum(b) if high is None else high.minimum(a.maximum(b))
     assert low is not None
     assert high is not None
-    return low, high
+    return low - abs(low) * ROUNDING, high + abs(high) * ROUNDING
 
 
 def outside(builder: KernelBuilder, kind: str, system: Any, point: Sequence[Any]) -> Value:

@@ -118,6 +118,22 @@ def test_wide_arguments_are_as_good_as_intervals(name, intersect):
         assert width <= (1.0001 if intersect else 2.1) * ideal + 1e-9
 
 
+def test_a_square_around_zero_keeps_its_rounding():
+    """Where |c| is far below the radius the credit of the error buys next to nothing."""
+    generator = np.random.default_rng(12)
+    count = 3000
+    radius = generator.uniform(0.5, 2.0, count).astype(np.float32)
+    centre = (radius * 10.0 ** generator.uniform(-9, -1, count)).astype(np.float32)
+    square = AffineSystem(F32).symbol(0, centre, radius).sqr()
+    reach = repaid(F32, square.error, square.budget.depth)
+    with flint.ctx.workprec(PRECISION):
+        for i in range(count):
+            for e in (-1, 0, 1):
+                value = (flint.arb(float(centre[i])) + flint.arb(float(radius[i])) * e) ** 2
+                line = flint.arb(float(square.centre[i])) + flint.arb(float(square.terms[0][i])) * e
+                assert abs(value - line) <= flint.arb(float(reach[i]))
+
+
 def test_linear_dependence_cancels():
     system = AffineSystem(F64)
     x = system.symbol(0, 1.0, 0.5)

@@ -1,5 +1,7 @@
 """Contracting a symbol loses no zero, and a proven change of sign is one."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -60,6 +62,19 @@ def test_a_strip_is_cut_where_it_meets_zero(centre, slope, error, fmt):
         assert (centre - slope) * (centre + slope) < 0
         assert abs(slope) - error > abs(centre)
         assert found.rising == (slope > 0)
+
+
+@pytest.mark.parametrize("kind", [np.asarray, Fused], ids=["plain", "fused"])
+def test_the_root_of_an_exact_line_is_kept(kind):
+    generator = np.random.default_rng(3)
+    slope = generator.uniform(-2, 2, 3000).astype(np.float32)
+    centre = (slope * generator.uniform(-1, 1, 3000)).astype(np.float32)
+    found = AffineSystem(F32).form(kind(centre), (kind(slope),)).contract()
+    low, high = plain(found.low).tolist(), plain(found.high).tolist()
+    for c, u, least, most in zip(centre.tolist(), slope.tolist(), low, high, strict=True):
+        root = -Fraction(c) / Fraction(u)
+        assert Fraction(least) <= root <= Fraction(most) or abs(root) > 1
+    assert np.max(plain(found.high) - plain(found.low)) < 16 * F32.eps
 
 
 def test_nothing_is_proven_where_f_may_be_undefined():

@@ -170,6 +170,19 @@ def test_waves_find_their_extrema_and_give_up_honestly():
     assert make(9000.0, 9000.0).tan().defined is False
 
 
+@pytest.mark.parametrize("fmt", [F32, F64], ids=["f32", "f64"])
+def test_no_pole_of_the_tangent_is_missed(fmt):
+    odd = np.arange(1, 5000, 2)
+    near = (odd * (np.pi / 2)).astype(fmt.dtype)
+    lo, hi = np.nextafter(near, np.zeros_like(near)), np.nextafter(near, np.full_like(near, np.inf))
+    for sign in (1, -1):
+        ends = (lo, hi) if sign > 0 else (-hi, -lo)
+        assert not system(fmt).bounds(*ends).tan().defined.any()
+    step = np.array(0.01, fmt.dtype)
+    clear = system(fmt).bounds(lo[:300] + step, hi[:300] + step)
+    assert clear.tan().defined.all()
+
+
 def test_atan2_knows_its_cut():
     make = system(F64).bounds
     right = make(-1.0, 1.0).atan2(make(1.0, 2.0))
@@ -240,6 +253,17 @@ def test_select_is_the_hull_where_undecided(kind):
     assert plain(picked.lo).tolist() == [10, 10, 20]
     assert plain(picked.hi).tolist() == [10, 20, 20]
     assert plain(picked.defined).tolist() == [True, False, True]
+
+
+def test_select_between_undefined_branches():
+    make = system(F64).bounds
+    across, nowhere = make(-1.0, 1.0), make(-2.0, -1.0).sqrt()
+    undecided = across.lt(make(0.0, 0.0))
+    assert undecided.select(nowhere, nowhere).empty is True
+    assert undecided.select(nowhere, across).empty is False
+    assert across.lt(make(2.0, 2.0)).select(across, nowhere).defined is True
+    assert across.lt(make(2.0, 2.0)).select(nowhere, across).empty is True
+    assert nowhere.lt(across).select(across, across).empty is True
 
 
 def test_conditions_combine():

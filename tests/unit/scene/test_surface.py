@@ -76,7 +76,7 @@ def test_a_surface_cannot_be_changed_in_place_but_copied() -> None:
         ("x^2 + a", {"a": math.nan}, ParameterError, "finite"),
         ("x^2 + a", {"a": "one"}, ParameterError, "number"),
         ("x^2 + a", {"a": None}, ParameterError, "number"),
-        ("x^2 + a", {"a": 1e31}, ParameterError, "1e30"),
+        ("x^2 + a", {"a": 1e31}, ParameterError, r"below 1e\+30"),
         ("x^2", {"x": 1}, ParameterError, "variable"),
         ("x^2", [("a", 1)], ParameterError, "mapping"),
         (BLOBS, {"c": [1.0], "r": [[1.0]]}, ArrayShapeError, "one row"),

@@ -22,8 +22,13 @@ class Known:
     surface: zs.Surface
     roots: Roots
 
-    def first(self, origins: Array, directions: Array, t_min: float = 0.0, t_max: float = np.inf) -> Array:
-        """The first root inside the bounds and the range; nan where there is none."""
+    def settled(self, origins: Array, directions: Array) -> Array:
+        """Rays whose answer does not hang on a root within rounding of the bounds."""
+        inner, outer = (self.first(origins, directions, grown) for grown in (1 - 1e-5, 1 + 1e-5))
+        return (inner == outer) | (np.isnan(inner) & np.isnan(outer))
+
+    def first(self, origins: Array, directions: Array, grown: float = 1.0) -> Array:
+        """The first root ahead and inside the bounds, which may be scaled; nan where there is none."""
         o, d = origins.astype(np.float32).astype(float), directions.astype(np.float32).astype(float)
         o, d = (
             np.broadcast_to(o, np.broadcast_shapes(o.shape, d.shape)),
@@ -33,10 +38,12 @@ class Known:
         points = o[:, None] + t[..., None] * d[:, None]
         bounds = self.surface.fitted
         if isinstance(bounds, zs.Ball):
-            inside = np.linalg.norm(points - bounds.center, axis=-1) <= bounds.radius
+            inside = np.linalg.norm(points - bounds.center, axis=-1) <= bounds.radius * grown
         else:
-            inside = np.all((points >= bounds.min) & (points <= bounds.max), axis=-1)
-        t = np.where(inside & (t >= t_min) & (t <= t_max), t, np.inf)
+            inside = np.all(
+                (points >= np.multiply(bounds.min, grown)) & (points <= np.multiply(bounds.max, grown)), axis=-1
+            )
+        t = np.where(inside & (t >= 0), t, np.inf)
         first = t.min(axis=1)
         return np.where(np.isinf(first), np.nan, first)
 
