@@ -139,9 +139,7 @@ class UnknownNameError(FormulaError):
         hint: str = "",
         hints: Iterable[str] = (),
     ) -> None:
-        super().__init__(
-            message, text=text, position=position, length=max(1, len(name)), hint=hint, hints=hints
-        )
+        super().__init__(message, text=text, position=position, length=max(1, len(name)), hint=hint, hints=hints)
         self.name = name
 
 
@@ -230,9 +228,7 @@ def nearest_names(name: str, known: Iterable[str], count: int = 3) -> tuple[str,
     for candidate in known:
         by_folded.setdefault(candidate.casefold(), candidate)
     folded = name.casefold()[:100]
-    return tuple(
-        by_folded[match] for match in difflib.get_close_matches(folded, by_folded, count, 0.6)
-    )
+    return tuple(by_folded[match] for match in difflib.get_close_matches(folded, by_folded, count, 0.6))
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> tuple[str, ...]:

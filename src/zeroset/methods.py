@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from zeroset.solve import (
-    METHODS,
-    AdaptiveMarchingPoints,
-    Affine,
-    Analytic,
-    Auto,
-    Interval,
-    MarchingPoints,
-    Method,
-    Mitchell,
-    MitchellExact,
-)
+from zeroset.solve.analytic import Analytic
+from zeroset.solve.certified import Affine, Auto, Interval
+from zeroset.solve.exact import MitchellExact
+from zeroset.solve.method import METHODS, Method
+from zeroset.solve.mitchell import Mitchell
+from zeroset.solve.sampling import AdaptiveMarchingPoints, MarchingPoints
 
 __all__ = [
     "METHODS",

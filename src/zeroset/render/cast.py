@@ -15,11 +15,11 @@ from zeroset.render.render import world_tolerance
 from zeroset.render.tracer import Tracer
 from zeroset.render.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
-from zeroset.scene.clip import bounds_uniforms
+from zeroset.scene.bounds import bounds_uniforms
 from zeroset.scene.scene import Scene, as_scene
 from zeroset.scene.surface import Surface
 from zeroset.solve import Method, resolve_method
-from zeroset.solve.problem import MISS
+from zeroset.solve.status import MISS
 
 FARTHEST = 1e30
 """What stands for an infinite t: kernels know no infinity."""

@@ -17,13 +17,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from zeroset.kernel import Kernel
 from zeroset.kernel.types import U32
-from zeroset.render.gbuffer import FIELDS
+from zeroset.render.buffers import FIELDS
 from zeroset.render.layout import TILE, Layout
-from zeroset.render.shading import shade_kernel
 from zeroset.render.tracer import Tracer
 from zeroset.runtime import Device, Program
-from zeroset.scene.clip import bounds_kind
+from zeroset.scene.bounds import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
@@ -80,7 +80,12 @@ class Frame:
         self._shown: weakref.ref[GBuffer] | None = None
 
     def _shader(self) -> Program:
-        return self.device.compile_cached(f"shade {self._lights}", lambda: shade_kernel(self._lights))
+        def build() -> Kernel:
+            from zeroset.render.shade import shade_kernel
+
+            return shade_kernel(self._lights)
+
+        return self.device.compile_cached(f"shade {self._lights}", build)
 
     def draw(
         self, surface: Surface, uniforms: Mapping[str, float], thin: bool, progress: Progress | None = None
@@ -111,6 +116,8 @@ _frames: OrderedDict[Structure, Frame] = OrderedDict()
 _frames_lock = threading.Lock()
 KEPT = 2
 """Frames kept for the next picture of the same structure; each holds its buffers."""
+KEPT_LANES = 1 << 23
+"""Pixels that all kept frames may have together, the last one aside: 48 bytes of memory each."""
 
 
 def frame_for(surface: Surface, method: Method, lights: int, layout: Layout, device: Device) -> Frame:
@@ -123,6 +130,6 @@ def frame_for(surface: Surface, method: Method, lights: int, layout: Layout, dev
             frame = Frame(surface, method, lights, layout, device)
             _frames[structure] = frame
         _frames.move_to_end(structure)
-        while len(_frames) > KEPT:
+        while len(_frames) > 1 and (len(_frames) > KEPT or sum(f.layout.lanes for f in _frames.values()) > KEPT_LANES):
             _frames.popitem(last=False)
     return frame

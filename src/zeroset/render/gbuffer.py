@@ -8,19 +8,10 @@ from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, if_, lift, store
+from zeroset.render.buffers import COUNTERS, FIELDS, NORMAL, SECOND
 from zeroset.solve.field import Lowered, Ray
-from zeroset.solve.problem import MISS, UNRESOLVED, Answer
-
-NORMAL = ("nx", "ny", "nz")
-FIELDS = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32}
-"""The G-buffer's arrays, one element a ray."""
-SECOND = {"second_lane": U32, "second_clear": F32}
-"""Rays left unresolved: which, and from where on."""
-THIN = {"block_missed": U32, "thin_block": U32}
-"""One element for each block of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and the
-list of those blocks that may hold something thinner than a pixel."""
-COUNTERS = "counters"
-"""How long the lists are: the second look's, the thin parts'."""
+from zeroset.solve.problem import Answer
+from zeroset.solve.status import MISS, UNRESOLVED
 
 
 def gradient_at(lowered: Lowered, point: Sequence[Value]) -> tuple[Value, Value, Value]:

@@ -13,9 +13,9 @@ import numpy.typing as npt
 
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
+from zeroset.render.buffers import NORMAL
 from zeroset.render.frame import GBuffer
-from zeroset.render.gbuffer import NORMAL
-from zeroset.solve.problem import MISS, UNRESOLVED
+from zeroset.solve.status import MISS, UNRESOLVED
 
 AOVS = ("depth", "normal", "status", "steps", "t")
 

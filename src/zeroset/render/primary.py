@@ -7,26 +7,25 @@ alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, load, store
-from zeroset.render.gbuffer import SECOND, ask_for_thin, ask_second_look, write
+from zeroset.render.buffers import SECOND
+from zeroset.render.gbuffer import ask_for_thin, ask_second_look, write
 from zeroset.render.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
 from zeroset.render.view import frame_patch, pixel_ray
 from zeroset.scene.clip import clip
 from zeroset.solve.beam import trace_beam
 from zeroset.solve.field import Field, Lowered, Ray
 from zeroset.solve.method import Method
-from zeroset.solve.problem import MISS, Problem
+from zeroset.solve.problem import Problem
 from zeroset.solve.search import search
+from zeroset.solve.status import MISS
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
 EMPTY_TILE = 1e30
 """Start of the rays of a tile that its beam has shown to be empty: beyond every bounds."""
-
-RayMaker = Callable[[KernelBuilder, Value], Ray]
 
 
 def camera_ray(builder: KernelBuilder, lane: Value) -> Ray:
@@ -59,12 +58,12 @@ def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
     return builder.uniform("near", F32), builder.uniform("far", F32)
 
 
-def trace_kernel(field: Field, method: Method, kind: str, make_ray: RayMaker, beams: bool, second: bool) -> Kernel:
+def trace_kernel(field: Field, method: Method, kind: str, pixels: bool, beams: bool, second: bool) -> Kernel:
     """One search a ray; ``beams``: it starts where its tile's beam ended; ``second``: it may ask for a second look."""
-    with KernelBuilder("primary" if make_ray is camera_ray else "cast") as builder:
+    with KernelBuilder("primary" if pixels else "cast") as builder:
         lane = builder.index() + builder.uniform("first", U32)
         lowered = Lowered(field, builder, offset=method.offset != 0.0)
-        ray = make_ray(builder, lane)
+        ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
         step = None
         if beams:
@@ -80,13 +79,13 @@ def trace_kernel(field: Field, method: Method, kind: str, make_ray: RayMaker, be
     return builder.kernel
 
 
-def second_kernel(field: Field, offset: bool, kind: str, make_ray: RayMaker) -> Kernel:
+def second_kernel(field: Field, offset: bool, kind: str, pixels: bool) -> Kernel:
     """The rays on the list again, in f64."""
     with KernelBuilder("second") as builder:
         place = builder.index()
         lane, clear = (load(builder.buffer(name, type_), place) for name, type_ in SECOND.items())
         lowered = Lowered(field, builder, F64, offset)
-        ray = make_ray(builder, lane)
+        ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
         rough = _problem(builder, lowered, kind, ray, near, far, None)
         exact = Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))

@@ -14,11 +14,9 @@ from zeroset.render.image import Image
 from zeroset.render.layout import TILE, Layout
 from zeroset.render.shading import shading_uniforms
 from zeroset.render.values import parameter_uniforms
-from zeroset.render.view import camera_uniforms
 from zeroset.runtime import Device, get_device
-from zeroset.scene.bounds import SMALLEST, Bounds, number
-from zeroset.scene.camera import Camera, Rays, parse_camera
-from zeroset.scene.clip import bounds_uniforms
+from zeroset.scene.bounds import SMALLEST, Bounds, bounds_uniforms, number
+from zeroset.scene.camera import Camera, Rays, camera_uniforms, parse_camera
 from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene, as_scene
 from zeroset.scene.surface import Surface

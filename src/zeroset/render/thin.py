@@ -9,16 +9,16 @@ UNRESOLVED.
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, atomic, constant, if_, load, store
-from zeroset.render.gbuffer import COUNTERS, write
+from zeroset.render.buffers import BLOCK, COUNTERS
+from zeroset.render.gbuffer import write
 from zeroset.render.layout import TILE, pixel_coordinates, tile_of
 from zeroset.render.primary import EMPTY_TILE, camera_ray, t_range
 from zeroset.render.view import frame_patch
 from zeroset.solve.beam import find_thin
 from zeroset.solve.field import Field, Lowered
-from zeroset.solve.problem import MISS, UNRESOLVED, Answer
+from zeroset.solve.problem import Answer
+from zeroset.solve.status import MISS, UNRESOLVED
 
-BLOCK = 16
-"""Pixels in a block."""
 FINENESS = 1.0, 0.125
 """The shortest step along a beam as a part of its width, for blocks and for pixels."""
 

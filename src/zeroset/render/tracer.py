@@ -14,13 +14,11 @@ import numpy as np
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.render.gbuffer import COUNTERS, FIELDS, SECOND, THIN
+from zeroset.render.buffers import BLOCK, COUNTERS, FIELDS, SECOND, THIN
 from zeroset.render.layout import TILE
-from zeroset.render.primary import beam_kernel, camera_ray, given_ray, second_kernel, trace_kernel
-from zeroset.render.thin import BLOCK, thin_kernel
 from zeroset.render.values import array_buffers, parameter_uniforms
 from zeroset.runtime import Device, Program
-from zeroset.scene.clip import bounds_kind
+from zeroset.scene.bounds import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
@@ -46,15 +44,34 @@ class Tracer:
 
     def _kernels(self, surface: Surface, pixels: bool) -> dict[str, Callable[[], Kernel]]:
         field, kind, method = surface.field, bounds_kind(surface.fitted), self._method
-        offset, make_ray = method.offset != 0.0, camera_ray if pixels else given_ray
-        made: dict[str, Callable[[], Kernel]] = {
-            "first": lambda: trace_kernel(field, method, kind, make_ray, self.beams, self.certified)
-        }
+        offset = method.offset != 0.0
+
+        # Imported where they are traced: a picture whose kernels come from the cache loads no number system at all.
+        def first() -> Kernel:
+            from zeroset.render.primary import trace_kernel
+
+            return trace_kernel(field, method, kind, pixels, self.beams, self.certified)
+
+        def second() -> Kernel:
+            from zeroset.render.primary import second_kernel
+
+            return second_kernel(field, offset, kind, pixels)
+
+        def beams() -> Kernel:
+            from zeroset.render.primary import beam_kernel
+
+            return beam_kernel(field, offset, kind)
+
+        def thin() -> Kernel:
+            from zeroset.render.thin import thin_kernel
+
+            return thin_kernel(field, offset, kind)
+
+        made: dict[str, Callable[[], Kernel]] = {"first": first}
         if self.certified:
-            made["second"] = lambda: second_kernel(field, offset, kind, make_ray)
+            made["second"] = second
         if self.beams:
-            made["beams"] = lambda: beam_kernel(field, offset, kind)
-            made["thin"] = lambda: thin_kernel(field, offset, kind)
+            made |= {"beams": beams, "thin": thin}
         return made
 
     def kernel(self, name: str) -> Kernel:

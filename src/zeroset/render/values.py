@@ -14,8 +14,8 @@ import numpy.typing as npt
 from zeroset.kernel.types import F32, Type
 from zeroset.runtime import Device
 from zeroset.scene.surface import Surface
-from zeroset.solve.field import OFFSET, array_names, length_name, parameter_names
 from zeroset.solve.method import Method
+from zeroset.solve.names import OFFSET, array_names, length_name, parameter_names
 
 Floats = npt.NDArray[Any]
 

@@ -7,20 +7,11 @@ from typing import Any
 
 from zeroset.arith import F32 as FORMAT
 from zeroset.kernel import F32, KernelBuilder, Value
-from zeroset.scene.camera import Rays
+from zeroset.scene.camera import VECTORS
 from zeroset.scene.clip import outside
 from zeroset.solve.beam import Patch
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.systems import automatic_system
-
-VECTORS = ("eye", "right_origin", "up_origin", "forward", "right", "up")
-
-
-def camera_uniforms(rays: Rays) -> dict[str, float]:
-    """The camera's numbers by uniform name."""
-    return {
-        f"{name}_{axis}": vector[i] for name, vector in zip(VECTORS, rays, strict=True) for i, axis in enumerate("xyz")
-    }
 
 
 def _vector(builder: KernelBuilder, name: str) -> list[Value]:

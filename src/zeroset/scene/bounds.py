@@ -136,3 +136,18 @@ def parse_bounds(value: Any) -> Bounds | None:
     except (TypeError, ValueError, OverflowError):
         raise BoundsError(f"bounds must be a number, a Ball or a Box, not {value!r}", hint="try bounds=3.0") from None
     return Ball(radius)
+
+
+NAMES = ("bx0", "by0", "bz0", "bx1", "by1", "bz1")
+"""Uniforms that hold the bounds' numbers in kernels."""
+
+
+def bounds_kind(bounds: Bounds) -> str:
+    """What of the bounds shapes a kernel."""
+    return "ball" if isinstance(bounds, Ball) else "box"
+
+
+def bounds_uniforms(bounds: Bounds) -> dict[str, float]:
+    """The bounds' numbers by uniform name: centre and radius of a ball, the corners of a box."""
+    values = (*bounds.center, bounds.radius, 0.0, 0.0) if isinstance(bounds, Ball) else (*bounds.min, *bounds.max)
+    return dict(zip(NAMES, values, strict=True))

@@ -145,3 +145,13 @@ def parse_camera(value: Any, bounds: Bounds) -> Camera:
             raise CameraError(f"a camera has no {min(map(str, unknown))!r}: it has eye, target, up, fov and height")
         return Camera(**value)
     raise CameraError(f"a camera must be a Camera or a mapping, not {value!r}")
+
+
+VECTORS = ("eye", "right_origin", "up_origin", "forward", "right", "up")
+
+
+def camera_uniforms(rays: Rays) -> dict[str, float]:
+    """The camera's numbers by uniform name."""
+    return {
+        f"{name}_{axis}": vector[i] for name, vector in zip(VECTORS, rays, strict=True) for i, axis in enumerate("xyz")
+    }

@@ -12,23 +12,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from zeroset.kernel import F32, KernelBuilder, Value
-from zeroset.scene.bounds import Ball, Bounds
+from zeroset.scene.bounds import NAMES
 
 ROUNDING = 2.0**-21
 """Covers the roundings of a stretch in f32, none of which is more than a few times 2^-24 of what goes in."""
-
-NAMES = ("bx0", "by0", "bz0", "bx1", "by1", "bz1")
-
-
-def bounds_kind(bounds: Bounds) -> str:
-    """What of the bounds shapes the kernel."""
-    return "ball" if isinstance(bounds, Ball) else "box"
-
-
-def bounds_uniforms(bounds: Bounds) -> dict[str, float]:
-    """The bounds' numbers by uniform name: centre and radius of a ball, the corners of a box."""
-    values = (*bounds.center, bounds.radius, 0.0, 0.0) if isinstance(bounds, Ball) else (*bounds.min, *bounds.max)
-    return dict(zip(NAMES, values, strict=True))
 
 
 def _uniforms(builder: KernelBuilder) -> list[Value]:
@@ -53,7 +40,9 @@ def _clip_ball(bounds: list[Value], origin: Sequence[Value], direction: Sequence
     middle = _dot(to_center, direction) / length
     nearest = [c - middle * d for c, d in zip(to_center, direction, strict=True)]
     # Rounding moves the point and the middle no farther than this.
-    blur = sum((abs(c) + abs(middle * d) for c, d in zip(to_center, direction, strict=True)), start=bounds[3]) * ROUNDING
+    blur = (
+        sum((abs(c) + abs(middle * d) for c, d in zip(to_center, direction, strict=True)), start=bounds[3]) * ROUNDING
+    )
     radius = bounds[3] + blur
     inside = radius * radius - _dot(nearest, nearest)
     along = _dot([abs(c) for c in to_center], [abs(d) for d in direction]) / length * ROUNDING

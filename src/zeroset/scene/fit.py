@@ -23,7 +23,7 @@ SEARCHED = 64.0
 """Half the side of the cube that is searched."""
 UNBOUNDED = 6.0
 """Radius that a surface gets which leaves the cube."""
-BOXES = 6000
+BOXES = 2500
 """Boxes that a level may keep; beyond, the hull is good enough."""
 EVALUATIONS = 1_000_000
 """Operations on boxes that a level may cost: long formulas keep fewer boxes."""

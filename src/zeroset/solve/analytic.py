@@ -16,9 +16,10 @@ from zeroset.errors import MethodError
 from zeroset.kernel import U32, Value, constant
 from zeroset.solve.field import Field
 from zeroset.solve.method import Method, register
-from zeroset.solve.problem import HIT, MISS, Answer, Problem
+from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.raypoly import SYSTEM, Factored, as_value, factor, ray_polynomial
 from zeroset.solve.search import search
+from zeroset.solve.status import HIT, MISS
 from zeroset.solve.walk import Striding
 
 

@@ -3,20 +3,22 @@
 ``interval`` and ``affine`` bisect t without a stack (K09 section 5.5) or the dominant axis (section 4.2), as the paper
 does; ``auto`` strides, cutting each interval to what the affine form leaves of it, which near a simple root squares
 the width each time. All three share ``search.py`` and prove what they answer.
+
+What tracing needs is imported where it is traced: a picture whose kernels come from the cache never loads it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from zeroset.arith import AffineSystem, Format, IntervalSystem
 from zeroset.errors import MethodError
 from zeroset.solve.method import Method, register, uniform
-from zeroset.solve.problem import Answer, Problem
-from zeroset.solve.search import search
-from zeroset.solve.systems import automatic_system
-from zeroset.solve.walk import AxisBisecting, Bisecting, Striding, Walk
+
+if TYPE_CHECKING:
+    from zeroset.arith import Format
+    from zeroset.solve.problem import Answer, Problem
+    from zeroset.solve.walk import Walk
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,9 @@ class _Bisection(Method):
 
     def trace(self, problem: Problem) -> Answer:
         """Emit the search for the first root."""
+        from zeroset.solve.search import search
+        from zeroset.solve.walk import AxisBisecting, Bisecting
+
         walk: Walk = AxisBisecting() if self.axis == "k" else Bisecting()
         return search(problem, self.system(problem.fmt), walk, delta=self.option(problem, "delta"))
 
@@ -58,6 +63,8 @@ class Interval(_Bisection):
 
     def system(self, fmt: Format) -> Any:
         """The number system that encloses f."""
+        from zeroset.arith import IntervalSystem
+
         return IntervalSystem(fmt)
 
 
@@ -71,6 +78,8 @@ class Affine(_Bisection):
 
     def system(self, fmt: Format) -> Any:
         """The number system that encloses f."""
+        from zeroset.arith import AffineSystem
+
         return AffineSystem(fmt, symbols=1)
 
 
@@ -85,4 +94,8 @@ class Auto(Method):
 
     def trace(self, problem: Problem) -> Answer:
         """Emit the search for the first root."""
+        from zeroset.solve.search import search
+        from zeroset.solve.systems import automatic_system
+        from zeroset.solve.walk import Striding
+
         return search(problem, automatic_system(problem.lowered.field, problem.fmt), Striding())

@@ -11,27 +11,10 @@ from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 from zeroset.kernel import F32, U32, Buffer, KernelBuilder, Type, Value, for_, load
+from zeroset.solve.names import OFFSET, array_names, length_name, parameter_names
 
 Number = Any
 """A number of whichever system is being evaluated."""
-
-OFFSET = "offset of f"
-"""Parameter that no formula can name: what the offset option takes off f."""
-
-
-def parameter_names(name: str, type_: Type) -> tuple[str, str]:
-    """The uniforms that hold a parameter, as a kernel of one scalar type reads it: value and storage error."""
-    return f"p_{name}_{type_}", f"p_{name}_{type_}_error"
-
-
-def array_names(name: str, type_: Type) -> tuple[str, str]:
-    """The buffers that hold an array parameter: values and storage errors."""
-    return f"a_{name}_{type_}", f"a_{name}_{type_}_error"
-
-
-def length_name(name: str) -> str:
-    """The uniform that holds how many elements an array parameter has."""
-    return f"a_{name}_length"
 
 
 class Field(Protocol):

@@ -1,22 +1,37 @@
 """Ray methods by name: each is a dataclass of options that traces itself into a kernel.
 
 A method's options split into *structure*, which shapes the kernel (and so its cache key), and *uniforms*, numbers that
-change without recompiling. A new method is one new file with a ``@register``-ed class.
+change without recompiling. A new method is one new file with a ``@register``-ed class, and one row of ``HOMES``.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from zeroset.errors import MethodError, nearest_names
-from zeroset.kernel import F32, Value
-from zeroset.solve.field import Field
-from zeroset.solve.problem import Answer, Problem
+from zeroset.kernel.types import F32
 
-METHODS: dict[str, type[Method]] = {}
+if TYPE_CHECKING:
+    from zeroset.kernel import Value
+    from zeroset.solve.field import Field
+    from zeroset.solve.problem import Answer, Problem
+
+HOMES = {
+    "auto": "certified",
+    "affine": "certified",
+    "interval": "certified",
+    "analytic": "analytic",
+    "mitchell": "mitchell",
+    "mitchell-exact": "exact",
+    "marching-points": "sampling",
+    "adaptive-marching-points": "sampling",
+}
+"""The file of each method, in the order in which they are listed; it is imported when the method is asked for."""
 
 
 def uniform(default: float) -> Any:
@@ -70,11 +85,30 @@ class Method:
 
 M = TypeVar("M", bound=type[Method])
 
+_known: dict[str, type[Method]] = {}
+
 
 def register(cls: M) -> M:
     """Class decorator: make a method known by its name."""
-    METHODS[cls.name] = cls
+    _known[cls.name] = cls
     return cls
+
+
+class _Methods(Mapping[str, type[Method]]):
+    """All methods by name, each imported when it is asked for."""
+
+    def __getitem__(self, name: str) -> type[Method]:
+        importlib.import_module(f"zeroset.solve.{HOMES[name]}")
+        return _known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(HOMES)
+
+    def __len__(self) -> int:
+        return len(HOMES)
+
+
+METHODS: Mapping[str, type[Method]] = _Methods()
 
 
 def resolve_method(method: str | Method) -> Method:

@@ -14,7 +14,8 @@ from typing import Any, ClassVar
 from zeroset.arith import DualSystem, IntervalSystem
 from zeroset.kernel import BOOL, U32, Value, constant, if_, lift, while_
 from zeroset.solve.method import Method, register
-from zeroset.solve.problem import HIT, MISS, UNRESOLVED, Answer, Problem
+from zeroset.solve.problem import Answer, Problem
+from zeroset.solve.status import HIT, MISS, UNRESOLVED
 
 
 def sign_of(problem: Problem, interval: Any) -> Value:

@@ -16,8 +16,6 @@ from zeroset.arith import Format
 from zeroset.kernel import F32, Scalar, Type, Value, constant, lift
 from zeroset.solve.field import Lowered, Ray
 
-MISS, HIT, UNRESOLVED = 0, 1, 2
-
 
 @dataclass(frozen=True, slots=True)
 class Problem:

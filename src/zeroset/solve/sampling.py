@@ -15,7 +15,8 @@ from zeroset.errors import MethodError
 from zeroset.kernel import BOOL, U32, Value, constant, for_, while_
 from zeroset.solve.field import Field
 from zeroset.solve.method import Method, register, uniform
-from zeroset.solve.problem import HIT, MISS, Answer, Problem
+from zeroset.solve.problem import Answer, Problem
+from zeroset.solve.status import HIT, MISS
 
 REFINEMENTS = 10
 """SN10 section 3.1: "we perform 10 bisections after root isolation"."""

@@ -19,7 +19,8 @@ from typing import Any
 from zeroset.arith import Affine as AffineForm
 from zeroset.arith import AffineSystem
 from zeroset.kernel import BOOL, U32, Value, constant, lift, while_
-from zeroset.solve.problem import HIT, MISS, UNRESOLVED, Answer, Problem
+from zeroset.solve.problem import Answer, Problem
+from zeroset.solve.status import HIT, MISS, UNRESOLVED
 from zeroset.solve.walk import State, Walk
 
 ZONE = 3

@@ -8,8 +8,8 @@ import pytest
 from zeroset.arith import F32 as FORMAT
 from zeroset.arith import IntervalSystem
 from zeroset.kernel import BOOL, F32, KernelBuilder, interp, load, store
-from zeroset.scene.bounds import Ball, Bounds, Box
-from zeroset.scene.clip import bounds_kind, bounds_uniforms, clip, outside
+from zeroset.scene.bounds import Ball, Bounds, Box, bounds_kind, bounds_uniforms
+from zeroset.scene.clip import clip, outside
 
 BOUNDS = [Ball(1.5, (0.5, -0.25, 0.0)), Box((-1.0, -0.5, 0.0), (0.5, 1.0, 2.0))]
 

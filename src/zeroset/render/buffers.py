@@ -1,0 +1,18 @@
+"""The buffers of a frame by name and type: the G-buffer, and the lists that passes make for later ones."""
+
+from __future__ import annotations
+
+from zeroset.kernel.types import F32, U32
+
+NORMAL = ("nx", "ny", "nz")
+FIELDS = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32}
+"""The G-buffer's arrays, one element a ray."""
+SECOND = {"second_lane": U32, "second_clear": F32}
+"""Rays left unresolved: which, and from where on."""
+THIN = {"block_missed": U32, "thin_block": U32}
+"""One element for each block of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and the
+list of those blocks that may hold something thinner than a pixel."""
+COUNTERS = "counters"
+"""How long the lists are: the second look's, the thin parts'."""
+BLOCK = 16
+"""Pixels in a block of 4x4."""
