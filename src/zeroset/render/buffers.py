@@ -9,10 +9,10 @@ FIELDS = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32
 """The G-buffer's arrays, one element a ray."""
 SECOND = {"second_lane": U32, "second_clear": F32}
 """Rays left unresolved: which, and from where on."""
-THIN = {"block_missed": U32, "thin_block": U32}
-"""One element for each block of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and the
-list of those blocks that may hold something thinner than a pixel."""
+THIN = {"block_missed": U32, "thin_block": U32, "thin_pixel": U32}
+"""For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not. Then the lists of blocks
+and of pixels that may hold something thinner than a pixel."""
 COUNTERS = "counters"
-"""How long the lists are: the second look's, the thin parts'."""
+"""How long the lists are: the second look's, the blocks' and the pixels' with thin parts."""
 BLOCK = 16
 """Pixels in a block of 4x4."""

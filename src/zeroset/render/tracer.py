@@ -97,16 +97,19 @@ class Tracer:
         """Fresh buffers for so many rays and tiles."""
         wanted = FIELDS | (SECOND if self.certified else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
-        made[COUNTERS] = self._device.allocate(U32, 2)
+        made[COUNTERS] = self._device.allocate(U32, 3)
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
-            made |= {name: self._device.allocate(type_, rays // BLOCK) for name, type_ in THIN.items()}
+            made |= {
+                name: self._device.allocate(type_, rays if name == "thin_pixel" else rays // BLOCK)
+                for name, type_ in THIN.items()
+            }
         return made
 
     def begin(self, surface: Surface, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
         """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters."""
         bound = {**buffers, **array_buffers(surface, self._device)} if surface.arrays else buffers
-        self._device.write(buffers[COUNTERS], np.zeros(2, np.uint32))
+        self._device.write(buffers[COUNTERS], np.zeros(3, np.uint32))
         if self.beams:
             self._device.write(buffers["block_missed"], np.zeros(tiles * TILE * TILE // BLOCK, np.uint32))
             self.program("beams").run(tiles, uniforms, bound)
@@ -125,11 +128,14 @@ class Tracer:
             self.program("second").run(count, exact, {**bound, **arrays})
 
     def thin_parts(self, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
-        """Draw what lies between the rays: first by blocks, then by the pixels of those that may hold something."""
+        """Draw what lies between the rays: by blocks, by the pixels of those, by the parts of those."""
         if not self.beams:
             return
         program = self.program("thin")
-        program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "fine": 0}, bound)
-        count = int(self._device.read(bound[COUNTERS])[1])
-        if count:
-            program.run(count * BLOCK, {**uniforms, "fine": 1}, bound)
+        program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "level": 0}, bound)
+        # What one run puts on a list, the next looks at in sixteen pieces each.
+        for level in (1, 2):
+            count = int(self._device.read(bound[COUNTERS])[level])
+            if not count:
+                return
+            program.run(count * BLOCK, {**uniforms, "level": level}, bound)
