@@ -102,13 +102,16 @@ def choose_camera(
     fov: float | None,
     height: float | None,
     orbit: float,
-) -> Camera:
-    """The scene's camera with what the user changed of it."""
+) -> Camera | None:
+    """The scene's camera with what the user changed of it; None for one that is still to be fitted, unchanged."""
     if fov is not None and height is not None:
         raise CameraError(
             "a camera has either a fov or a height", hint="fov is for perspective, height for orthographic"
         )
-    camera = scene.camera or scene.surface.camera or fit_camera(scene.surface.fitted)
+    camera = scene.camera or scene.surface.camera
+    if camera is None and not orbit and all(v is None for v in (eye, target, up, fov, height)):
+        return None
+    camera = camera or fit_camera(scene.surface.fitted)
     places = {"eye": eye, "target": target, "up": up}
     changes: dict[str, Any] = {k: read_triple(v, f"the {k}") for k, v in places.items() if v is not None}
     if fov is not None or height is not None:

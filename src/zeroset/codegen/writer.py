@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from zeroset.codegen.target import Target
 from zeroset.kernel.types import BOOL, Type
-from zeroset.kernel.value import Instruction, Value, constant_value
+from zeroset.kernel.value import Instruction, Value
 
 SCALARS = {"f32": "float", "f64": "double", "i32": "i32", "u32": "i32", "bool": "i1"}
 SUFFIXES = {"f32": "f32", "f64": "f64", "i32": "i32", "u32": "i32", "bool": "i1"}
@@ -228,7 +228,7 @@ def literal_text(definition: Instruction) -> str:
     """The LLVM literal of a ``const`` instruction."""
     kind = definition.results[0].type.kind
     if kind == "f":
-        bits = struct.unpack("<Q", struct.pack("<d", float(constant_value(definition))))[0]
+        bits = struct.unpack("<Q", struct.pack("<d", float(definition.attributes[0])))[0]
         return f"0x{bits:016X}"
     if kind == "b":
         return "true" if definition.attributes[0] == "True" else "false"

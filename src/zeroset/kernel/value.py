@@ -7,6 +7,8 @@ block being built. Equal pure instructions are emitted once for each scope; noth
 
 from __future__ import annotations
 
+import math
+import struct
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -100,9 +102,11 @@ def emit(
 def constant(value: float | int | bool, type_: Type) -> Value:
     """A constant of a kernel type; floats are rounded to nearest. NaN and infinity are not constants of kernels."""
     if type_.kind == "f":
-        with np.errstate(over="ignore"):
-            rounded = float(type_.dtype.type(value))
-        if not np.isfinite(rounded):
+        try:
+            rounded = struct.unpack("<f", struct.pack("<f", value))[0] if type_ == F32 else float(value)
+        except OverflowError:
+            rounded = math.inf
+        if not math.isfinite(rounded):
             raise KernelError(f"{value!r} is no finite {type_} constant; use a large finite sentinel instead")
         # repr keeps 0.0 and -0.0 apart, which compare equal as dictionary keys.
         return emit("const", (), (repr(rounded),), (type_,))[0]

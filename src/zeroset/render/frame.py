@@ -122,7 +122,7 @@ KEPT_LANES = 1 << 23
 
 def frame_for(surface: Surface, method: Method, lights: int, layout: Layout, device: Device) -> Frame:
     """The frame of a structure, kept from an earlier picture where there was one."""
-    kind = bounds_kind(surface.fitted)
+    kind = bounds_kind(surface.bounds)
     structure = Structure(surface.field.digest, method.structure(), kind, lights, layout, id(device))
     with _frames_lock:
         frame = _frames.get(structure)

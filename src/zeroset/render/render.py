@@ -87,8 +87,9 @@ def render(
     chosen.check(shown.field)
     shown.check_work()
     target = get_device(device)
-    view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
+    # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, len(lit), layout, target)
+    view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
     uniforms |= shading_uniforms(scene.material, lit, scene.background, rays)

@@ -1,13 +1,13 @@
 """Tracing as a plan of passes: beams, first look, second look, thin parts; for a frame's pixels and a caller's rays.
 
-Each pass is a kernel over named buffers. The later ones run on lists that the first look makes, mostly short; their
-kernels are compiled when a list is not empty for the first time.
+Each pass is a kernel over named buffers. The later ones run on lists that the earlier ones make, mostly short. All are
+compiled side by side while the first are already running.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,8 @@ from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
 Buffers = Mapping[str, Any]
+ORDER = ("beams", "first", "thin", "second")
+"""Passes in the order in which their programs are made; the second look often finds nothing to do."""
 
 
 class Tracer:
@@ -38,12 +40,13 @@ class Tracer:
         self._device = device
         self.certified = method.certified
         self.beams = pixels and method.certified
-        self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.fitted)} {pixels}"
+        self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels}"
         self._builders = self._kernels(surface, pixels)
         self._programs: dict[str, Program] = {}
+        self._coming: dict[str, Future[Program]] = {}
 
     def _kernels(self, surface: Surface, pixels: bool) -> dict[str, Callable[[], Kernel]]:
-        field, kind, method = surface.field, bounds_kind(surface.fitted), self._method
+        field, kind, method = surface.field, bounds_kind(surface.bounds), self._method
         offset = method.offset != 0.0
 
         # Imported where they are traced: a picture whose kernels come from the cache loads no number system at all.
@@ -79,19 +82,28 @@ class Tracer:
         return self._builders[name]()
 
     def program(self, name: str) -> Program:
-        """The program of one pass, compiled on first use."""
+        """The program of one pass: compiled by now, being compiled, or compiled here."""
+        waiting = self._coming.pop(name, None)
+        if waiting is not None:
+            self._programs[name] = waiting.result()
         known = self._programs.get(name)
         if known is None:
-            known = self._device.compile_cached(f"{name} {self._key}", self._builders[name])
-            self._programs[name] = known
+            known = self._programs[name] = self._compiled(name)
         return known
 
+    def _compiled(self, name: str) -> Program:
+        return self._device.compile_cached(f"{name} {self._key}", self._builders[name])
+
     def compile(self, *others: Callable[[], object]) -> None:
-        """Compile all passes, and what else is needed, side by side: compilers run outside Python's lock."""
-        tasks = [*(lambda name=name: self.program(name) for name in self._builders), *others]
-        with ThreadPoolExecutor(len(tasks)) as pool:
-            for done in [pool.submit(task) for task in tasks]:
-                done.result()
+        """Begin to compile all passes, and what else is needed, side by side: compilers run outside Python's lock.
+
+        In the order in which they are needed; ``program`` waits for the one that it is asked for.
+        """
+        pool = ThreadPoolExecutor(2)
+        self._coming = {name: pool.submit(self._compiled, name) for name in ORDER if name in self._builders}
+        for other in others:
+            pool.submit(other)
+        pool.shutdown(wait=False)
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles."""

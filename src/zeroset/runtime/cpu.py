@@ -54,7 +54,7 @@ class CpuDevice(HostMemory):
         self._pool = Pool(threads or thread_count())
         self.cache = default_cache() if cache is None else cache
         self._programs: dict[str, CpuProgram] = {}
-        self._busy = threading.RLock()
+        self._busy = threading.Lock()
         machine = target.identity if target else cpu_stamp() or self.target.identity
         self._stamp = f"{machine}|{source_stamp()}|{llvm_stamp()}"
 
@@ -72,28 +72,33 @@ class CpuDevice(HostMemory):
 
     def compile(self, kernel: Kernel) -> CpuProgram:
         """The program of a kernel; see ``Device.compile``."""
-        with self._busy:
-            return self._programs.get(kernel.digest) or self._remember(kernel.digest, self._obtain(kernel))
+        return self._known(kernel.digest) or self._remember(kernel.digest, self._obtain(kernel))
 
     def compile_cached(self, key: str, build: Callable[[], Kernel]) -> CpuProgram:
         """The program under a key; see ``Device.compile_cached``."""
+        # Nothing is held while kernels are traced and compiled: several may be under way at once.
         name = f"key {key}"
+        known = self._known(name)
+        if known is None:
+            digest = self.cache.follow(f"{name}|{self._stamp}")
+            known = None if digest is None else self._known(digest) or self._recall(digest)
+        if known is None:
+            kernel = build()
+            known = self.compile(kernel)
+            self.cache.link(f"{name}|{self._stamp}", kernel.digest)
+        return self._remember(name, known)
+
+    def _known(self, name: str) -> CpuProgram | None:
         with self._busy:
-            known = self._programs.get(name)
-            if known is None:
-                digest = self.cache.follow(f"{name}|{self._stamp}")
-                known = None if digest is None else self._programs.get(digest) or self._recall(digest)
-            if known is None:
-                kernel = build()
-                known = self.compile(kernel)
-                self.cache.link(f"{name}|{self._stamp}", kernel.digest)
-            return self._remember(name, known)
+            return self._programs.get(name)
 
     def _remember(self, name: str, program: CpuProgram) -> CpuProgram:
-        self._programs.pop(name, None)
-        self._programs[name] = program
-        while len(self._programs) > _IN_MEMORY:
-            del self._programs[next(iter(self._programs))]
+        """Keep a program; the one that was there first stays where two threads made the same."""
+        with self._busy:
+            program = self._programs.pop(name, program)
+            self._programs[name] = program
+            while len(self._programs) > _IN_MEMORY:
+                del self._programs[next(iter(self._programs))]
         return program
 
     def _recall(self, digest: str) -> CpuProgram | None:

@@ -142,9 +142,9 @@ NAMES = ("bx0", "by0", "bz0", "bx1", "by1", "bz1")
 """Uniforms that hold the bounds' numbers in kernels."""
 
 
-def bounds_kind(bounds: Bounds) -> str:
-    """What of the bounds shapes a kernel."""
-    return "ball" if isinstance(bounds, Ball) else "box"
+def bounds_kind(bounds: Bounds | None) -> str:
+    """What of the bounds shapes a kernel; bounds that are still to be fitted will be a ball."""
+    return "box" if isinstance(bounds, Box) else "ball"
 
 
 def bounds_uniforms(bounds: Bounds) -> dict[str, float]:
