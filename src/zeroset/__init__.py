@@ -12,16 +12,14 @@ The public names are loaded on first use, so that importing the package costs ne
 from __future__ import annotations
 
 import importlib
-import sys
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from zeroset import errors, methods
     from zeroset.errors import ZerosetError
-    from zeroset.render.cast import Hits, cast
-    from zeroset.render.image import Image
-    from zeroset.render.render import render
+    from zeroset.rendering.cast import Hits, cast
+    from zeroset.rendering.image import Image
+    from zeroset.rendering.render import render
     from zeroset.scene.bounds import Ball, Box
     from zeroset.scene.camera import Camera
     from zeroset.scene.file import load, save
@@ -65,17 +63,17 @@ _HOMES = {
     "Ball": "zeroset.scene.bounds",
     "Box": "zeroset.scene.bounds",
     "Camera": "zeroset.scene.camera",
-    "Hits": "zeroset.render.cast",
-    "Image": "zeroset.render.image",
+    "Hits": "zeroset.rendering.cast",
+    "Image": "zeroset.rendering.image",
     "Light": "zeroset.scene.light",
     "Material": "zeroset.scene.light",
     "Scene": "zeroset.scene.scene",
     "Surface": "zeroset.scene.surface",
     "ZerosetError": "zeroset.errors",
-    "cast": "zeroset.render.cast",
+    "cast": "zeroset.rendering.cast",
     "gallery": "zeroset.shelf",
     "load": "zeroset.scene.file",
-    "render": "zeroset.render.render",
+    "render": "zeroset.rendering.render",
     "save": "zeroset.scene.file",
     "surface": "zeroset.scene.surface",
 }
@@ -94,14 +92,3 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return __all__
-
-
-class _Package(ModuleType):
-    """Keeps the public names when a subpackage of the same name (``render``, ``gallery``) is imported."""
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if not (name in _HOMES and isinstance(value, ModuleType)):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from zeroset.errors import UnknownSurfaceError
-from zeroset.gallery import BallBounds, GalleryEntry, entry, names
 from zeroset.scene.bounds import Ball, Bounds, Box
 from zeroset.scene.camera import Camera
 from zeroset.scene.surface import Surface, surface
+from zeroset.surfaces import BallBounds, GalleryEntry, entry, names
 
 
 class Gallery(Mapping[str, Surface]):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from zeroset.errors import ZerosetError
-from zeroset.gallery import BallBounds, GalleryEntry, entry
+from zeroset.surfaces import BallBounds, GalleryEntry, entry
 
 START = "import sys; from zeroset.cli import main; sys.exit(main())"
 """What the installed command does."""

@@ -13,7 +13,7 @@ from zeroset.bench.limit import limit_action
 from zeroset.bench.meter import Meter
 from zeroset.bench.timing import Times, take_turns
 from zeroset.errors import ZerosetError
-from zeroset.render.render import render
+from zeroset.rendering.render import render
 from zeroset.runtime import Device
 from zeroset.runtime.cache import Cache
 from zeroset.scene.surface import Surface

@@ -13,8 +13,8 @@ from functools import partial
 from zeroset.arith import F32 as FORMAT
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, Kernel, KernelBuilder, lift, store
-from zeroset.render.layout import Layout, pixel_coordinates
-from zeroset.render.values import array_buffers, parameter_uniforms
+from zeroset.rendering.layout import Layout, pixel_coordinates
+from zeroset.rendering.values import array_buffers, parameter_uniforms
 from zeroset.runtime import Device
 from zeroset.scene.surface import Surface
 from zeroset.solve import resolve_method

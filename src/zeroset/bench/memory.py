@@ -10,7 +10,7 @@ from pathlib import Path
 
 from zeroset.bench.devices import Devices
 from zeroset.bench.meter import Meter
-from zeroset.render.render import render
+from zeroset.rendering.render import render
 from zeroset.scene.camera import Camera, parse_camera
 from zeroset.scene.surface import Surface
 

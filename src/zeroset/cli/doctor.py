@@ -75,7 +75,7 @@ def _cache() -> Iterator[str]:
 
 def _trial() -> Iterator[str]:
     from zeroset.errors import ZerosetError
-    from zeroset.render.render import render
+    from zeroset.rendering.render import render
 
     try:
         image = render("x^2 + y^2 + z^2 = 1", size=64)

@@ -60,8 +60,8 @@ def command(
 
 def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
     """What traces each kernel of a frame, by name, in the order they run."""
-    from zeroset.render.shade import shade_kernel
-    from zeroset.render.tracer import Tracer
+    from zeroset.rendering.shade import shade_kernel
+    from zeroset.rendering.tracer import Tracer
     from zeroset.runtime import get_device
 
     # Nothing is run, so any device will do.

@@ -30,7 +30,7 @@ def command(name: str | None, sheet: str | None, cell: int, method: str, device:
 
 
 def _list() -> None:
-    from zeroset.gallery import entry, names
+    from zeroset.surfaces import entry, names
 
     width = max(map(len, names()))
     for name in names():
@@ -44,7 +44,7 @@ def _list() -> None:
 
 
 def _describe(name: str) -> None:
-    from zeroset.gallery import entry
+    from zeroset.surfaces import entry
 
     item = entry(name)
     click.echo(f"{item.title}\n\n  {item.formula}\n")
@@ -62,8 +62,8 @@ def _draw_sheet(path: str, cell: int, method: str, device: str) -> None:
     from PIL import Image, ImageDraw
 
     from zeroset.atomic import replacing
-    from zeroset.render.image import encode, picture_format
-    from zeroset.render.render import render
+    from zeroset.rendering.image import encode, picture_format
+    from zeroset.rendering.render import render
     from zeroset.shelf import gallery
 
     target, chosen = picture_path(path), read_method(method)

@@ -21,7 +21,7 @@ from zeroset.cli.source import (
 )
 
 if TYPE_CHECKING:
-    from zeroset.render.image import Image
+    from zeroset.rendering.image import Image
     from zeroset.scene.bounds import Bounds
     from zeroset.scene.scene import Scene
 
@@ -62,7 +62,7 @@ def command(
     """Draw SOURCE: a formula such as "x^2 + y^2 = z", a gallery name, or a scene file."""
     import dataclasses
 
-    from zeroset.render.render import render
+    from zeroset.rendering.render import render
 
     path = picture_path(output)
     for extra in (save_scene, save_outputs):
@@ -88,7 +88,7 @@ def _save(image: Image, scene: Scene, path: Path, save_scene: str | None, save_o
         import numpy as np
 
         from zeroset.atomic import replacing
-        from zeroset.render.image import AOVS
+        from zeroset.rendering.image import AOVS
 
         with replacing(save_outputs) as file:
             outputs: dict[str, Any] = {name: image.aov(name) for name in AOVS}

@@ -206,7 +206,7 @@ def existing_folder(path: str) -> Path:
 
 def picture_path(path: str) -> Path:
     """The path, if it names a picture format and can be written."""
-    from zeroset.render.image import picture_format
+    from zeroset.rendering.image import picture_format
 
     picture_format(path)
     return existing_folder(path)

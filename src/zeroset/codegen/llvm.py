@@ -9,6 +9,7 @@ Arguments come in slots, see ``slots``.
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any
 
 from zeroset.codegen.control import Control
@@ -213,6 +214,30 @@ def to_object(text: str, target: Target, level: int | None = None) -> bytes:
     try:
         module = llvm.parse_assembly(text, llvm.create_context())
         module.verify()
-        return bytes(maker.emit_object(module))
+        return _emit(maker, module)
     except RuntimeError as error:
         raise DeviceError(f"LLVM does not take the code of a kernel: {str(error).splitlines()[0]}") from error
+
+
+def _emit(maker: Any, module: Any) -> bytes:
+    """Object code of a module, made outside llvmlite's global lock where that can be had.
+
+    llvmlite allows one call into LLVM at a time in the whole process. LLVM itself works on several modules at once as
+    long as each has a context and a target machine of its own, as here; so the call goes past the lock, which lets
+    the kernels of a frame be compiled side by side.
+    """
+    from llvmlite.binding import ffi
+
+    locked = ffi.lib.LLVMPY_TargetMachineEmitToMemory
+    unlocked = getattr(locked, "_cfn", None)
+    if unlocked is None:
+        return bytes(maker.emit_object(module))
+    with ffi.OutputString() as error:
+        buffer = unlocked(maker, module, 1, error)
+        if not buffer:
+            raise RuntimeError(str(error))
+    start, size = ffi.lib.LLVMPY_GetBufferStart(buffer), ffi.lib.LLVMPY_GetBufferSize(buffer)
+    try:
+        return ctypes.string_at(start, size)
+    finally:
+        ffi.lib.LLVMPY_DisposeMemoryBuffer(buffer)

@@ -8,7 +8,7 @@ import pytest
 
 from zeroset.bench.cold import command_line, measure_command
 from zeroset.errors import ZerosetError
-from zeroset.gallery import entry
+from zeroset.surfaces import entry
 
 
 def test_formula_parameters_and_bounds_are_given() -> None:

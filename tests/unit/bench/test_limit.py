@@ -7,7 +7,7 @@ import numpy as np
 import zeroset as zs
 from zeroset.bench.limit import PLACE, TILT, limit_action, limit_kernel
 from zeroset.kernel.interp import run
-from zeroset.render.layout import Layout
+from zeroset.rendering.layout import Layout
 from zeroset.runtime import get_device
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from zeroset.gallery.entry import BoxBounds, GalleryEntry, Source, Vector, View
+from zeroset.surfaces.entry import BoxBounds, GalleryEntry, Source, Vector, View
 
 __all__ = ["LEAST_ORDER", "MOST_ORDER", "chmutov_of_order"]
 

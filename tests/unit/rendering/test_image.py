@@ -9,7 +9,7 @@ from PIL import Image as Pillow
 
 import zeroset as zs
 from zeroset.errors import OutputError, ZerosetError
-from zeroset.render.image import AOVS, FORMATS, encode, picture_format
+from zeroset.rendering.image import AOVS, FORMATS, encode, picture_format
 
 BALL = zs.surface("x^2 + y^2 + z^2 = 1", bounds=1.2)
 CAMERA = zs.Camera(eye=(0, -4, 0), fov=35)

@@ -11,11 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, if_, load, store
-from zeroset.render.buffers import BLOCK, COUNTERS, FIELDS, THIN
-from zeroset.render.gbuffer import write
-from zeroset.render.layout import TILE, pixel_coordinates, tile_of
-from zeroset.render.primary import EMPTY_TILE, camera_ray, t_range
-from zeroset.render.view import frame_patch
+from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, THIN
+from zeroset.rendering.gbuffer import write
+from zeroset.rendering.layout import TILE, pixel_coordinates, tile_of
+from zeroset.rendering.primary import EMPTY_TILE, camera_ray, t_range
+from zeroset.rendering.view import frame_patch
 from zeroset.solve.beam import Thin, find_thin
 from zeroset.solve.field import Field, Lowered
 from zeroset.solve.problem import Answer

@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from zeroset.errors import ArrayShapeError, ParameterError
 from zeroset.kernel.types import F32
-from zeroset.render.render import world_tolerance
-from zeroset.render.tracer import Tracer
-from zeroset.render.values import parameter_uniforms
+from zeroset.rendering.render import world_tolerance
+from zeroset.rendering.tracer import Tracer
+from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import bounds_uniforms
 from zeroset.scene.scene import Scene, as_scene

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from zeroset.expr import polynomial
-from zeroset.gallery import BallBounds, GalleryEntry, entry, names
-from zeroset.gallery.load import DATA, FAMILIES
+from zeroset.surfaces import BallBounds, GalleryEntry, entry, names
+from zeroset.surfaces.load import DATA, FAMILIES
 
 NAMES = names()
 GRID = 48

@@ -14,17 +14,17 @@ import numpy as np
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.render.buffers import BLOCK, COUNTERS, FIELDS, SECOND, THIN
-from zeroset.render.layout import TILE
-from zeroset.render.values import array_buffers, parameter_uniforms
+from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, SECOND, THIN
+from zeroset.rendering.layout import TILE
+from zeroset.rendering.values import array_buffers, parameter_uniforms
 from zeroset.runtime import Device, Program
 from zeroset.scene.bounds import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
 Buffers = Mapping[str, Any]
-ORDER = ("beams", "first", "thin", "second")
-"""Passes in the order in which their programs are made; the second look often finds nothing to do."""
+AHEAD = ("beams", "first", "thin")
+"""Passes whose programs are made ahead, in the order in which they are needed; the second look is often not needed."""
 
 
 class Tracer:
@@ -51,22 +51,22 @@ class Tracer:
 
         # Imported where they are traced: a picture whose kernels come from the cache loads no number system at all.
         def first() -> Kernel:
-            from zeroset.render.primary import trace_kernel
+            from zeroset.rendering.primary import trace_kernel
 
             return trace_kernel(field, method, kind, pixels, self.beams, self.certified)
 
         def second() -> Kernel:
-            from zeroset.render.primary import second_kernel
+            from zeroset.rendering.primary import second_kernel
 
             return second_kernel(field, offset, kind, pixels)
 
         def beams() -> Kernel:
-            from zeroset.render.primary import beam_kernel
+            from zeroset.rendering.primary import beam_kernel
 
             return beam_kernel(field, offset, kind)
 
         def thin() -> Kernel:
-            from zeroset.render.thin import thin_kernel
+            from zeroset.rendering.thin import thin_kernel
 
             return thin_kernel(field, offset, kind)
 
@@ -95,12 +95,12 @@ class Tracer:
         return self._device.compile_cached(f"{name} {self._key}", self._builders[name])
 
     def compile(self, *others: Callable[[], object]) -> None:
-        """Begin to compile all passes, and what else is needed, side by side: compilers run outside Python's lock.
+        """Begin to compile the passes, and what else is needed; ``program`` waits for the one that it is asked for.
 
-        In the order in which they are needed; ``program`` waits for the one that it is asked for.
+        Two at a time: while LLVM works on one kernel, outside Python's lock, the next one is traced.
         """
         pool = ThreadPoolExecutor(2)
-        self._coming = {name: pool.submit(self._compiled, name) for name in ORDER if name in self._builders}
+        self._coming = {name: pool.submit(self._compiled, name) for name in AHEAD if name in self._builders}
         for other in others:
             pool.submit(other)
         pool.shutdown(wait=False)

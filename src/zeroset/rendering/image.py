@@ -13,8 +13,8 @@ import numpy.typing as npt
 
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
-from zeroset.render.buffers import NORMAL
-from zeroset.render.frame import GBuffer
+from zeroset.rendering.buffers import NORMAL
+from zeroset.rendering.frame import GBuffer
 from zeroset.solve.status import MISS, UNRESOLVED
 
 AOVS = ("depth", "normal", "status", "steps", "t")

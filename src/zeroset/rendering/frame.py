@@ -19,9 +19,9 @@ import numpy.typing as npt
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import U32
-from zeroset.render.buffers import FIELDS
-from zeroset.render.layout import TILE, Layout
-from zeroset.render.tracer import Tracer
+from zeroset.rendering.buffers import FIELDS
+from zeroset.rendering.layout import TILE, Layout
+from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device, Program
 from zeroset.scene.bounds import bounds_kind
 from zeroset.scene.surface import Surface
@@ -81,7 +81,7 @@ class Frame:
 
     def _shader(self) -> Program:
         def build() -> Kernel:
-            from zeroset.render.shade import shade_kernel
+            from zeroset.rendering.shade import shade_kernel
 
             return shade_kernel(self._lights)
 

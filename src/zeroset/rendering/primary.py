@@ -10,10 +10,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, load, store
-from zeroset.render.buffers import SECOND
-from zeroset.render.gbuffer import ask_for_thin, ask_second_look, write
-from zeroset.render.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
-from zeroset.render.view import frame_patch, pixel_ray
+from zeroset.rendering.buffers import SECOND
+from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write
+from zeroset.rendering.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
+from zeroset.rendering.view import frame_patch, pixel_ray
 from zeroset.scene.clip import clip
 from zeroset.solve.beam import trace_beam
 from zeroset.solve.field import Field, Lowered, Ray

@@ -7,7 +7,7 @@ Tracing of Arbitrary Implicit Surfaces with Interval and Affine Arithmetic" (Com
 each entry's `note` says what was put right, and why. Nothing is read until a name is asked for.
 
 Example:
-    >>> from zeroset.gallery import chmutov, entry
+    >>> from zeroset.surfaces import chmutov, entry
     >>> entry("ding-dong").formula
     'x^2 + y^2 = (1 - z) z^2'
     >>> chmutov(40).degree
@@ -18,9 +18,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from zeroset.gallery.chebyshev import LEAST_ORDER, MOST_ORDER, chmutov_of_order
-from zeroset.gallery.entry import BallBounds, BoxBounds, GalleryEntry, Source, View
-from zeroset.gallery.load import family, index
+from zeroset.surfaces.chebyshev import LEAST_ORDER, MOST_ORDER, chmutov_of_order
+from zeroset.surfaces.entry import BallBounds, BoxBounds, GalleryEntry, Source, View
+from zeroset.surfaces.load import family, index
 
 if TYPE_CHECKING:
     from typing import NoReturn

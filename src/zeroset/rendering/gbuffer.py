@@ -8,7 +8,7 @@ from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, if_, lift, store
-from zeroset.render.buffers import COUNTERS, FIELDS, NORMAL, SECOND
+from zeroset.rendering.buffers import COUNTERS, FIELDS, NORMAL, SECOND
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.problem import Answer
 from zeroset.solve.status import MISS, UNRESOLVED

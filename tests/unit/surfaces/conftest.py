@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from zeroset.expr import parse
-from zeroset.gallery import entry
+from zeroset.surfaces import entry
 
 Array = np.ndarray[Any, np.dtype[Any]]
 STEP = 1e-40

@@ -5,9 +5,9 @@ import tomllib
 import pytest
 
 from zeroset.errors import UnknownSurfaceError
-from zeroset.gallery import chmutov, entry, names
-from zeroset.gallery.chebyshev import chmutov_of_order
-from zeroset.gallery.load import DATA, FAMILIES, family, index
+from zeroset.surfaces import chmutov, entry, names
+from zeroset.surfaces.chebyshev import chmutov_of_order
+from zeroset.surfaces.load import DATA, FAMILIES, family, index
 
 
 def test_every_table_of_every_file_is_listed_once() -> None:

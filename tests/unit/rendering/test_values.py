@@ -5,7 +5,7 @@ import pytest
 
 import zeroset as zs
 from zeroset.kernel.types import F32, F64
-from zeroset.render.values import parameter_uniforms, stored
+from zeroset.rendering.values import parameter_uniforms, stored
 from zeroset.runtime import get_device
 from zeroset.solve.field import length_name, parameter_names
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from zeroset.kernel import F32, U32, KernelBuilder, interp, store
-from zeroset.render.layout import TILE, Layout, pixel_coordinates, pixel_place, tile_coordinates, tile_of
+from zeroset.rendering.layout import TILE, Layout, pixel_coordinates, pixel_place, tile_coordinates, tile_of
 
 SIZES = [(1, 1), (7, 5), (8, 8), (9, 8), (513, 31), (64, 48)]
 

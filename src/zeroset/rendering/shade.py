@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, if_, load, store
-from zeroset.render.layout import pixel_coordinates, pixel_place
-from zeroset.render.shading import LIGHT
-from zeroset.render.view import pixel_ray
+from zeroset.rendering.layout import pixel_coordinates, pixel_place
+from zeroset.rendering.shading import LIGHT
+from zeroset.rendering.view import pixel_ray
 from zeroset.shade.reflectance import blinn_phong, normalised
 from zeroset.shade.tone import encode, pack
 from zeroset.solve.status import MISS

@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from zeroset.errors import ParameterError, ZerosetError
-from zeroset.render.frame import Progress, frame_for
-from zeroset.render.image import Image
-from zeroset.render.layout import TILE, Layout
-from zeroset.render.shading import shading_uniforms
-from zeroset.render.values import parameter_uniforms
+from zeroset.rendering.frame import Progress, frame_for
+from zeroset.rendering.image import Image
+from zeroset.rendering.layout import TILE, Layout
+from zeroset.rendering.shading import shading_uniforms
+from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, bounds_uniforms, number
 from zeroset.scene.camera import Camera, Rays, camera_uniforms, parse_camera

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from zeroset.gallery.entry import BallBounds, BoxBounds, GalleryEntry, Source, Vector, View
+from zeroset.surfaces.entry import BallBounds, BoxBounds, GalleryEntry, Source, Vector, View
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
