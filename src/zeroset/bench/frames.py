@@ -13,6 +13,7 @@ from zeroset.bench.limit import limit_action
 from zeroset.bench.meter import Meter
 from zeroset.bench.timing import Times, take_turns
 from zeroset.errors import ZerosetError
+from zeroset.rendering.frame import settle
 from zeroset.rendering.render import render
 from zeroset.runtime import Device
 from zeroset.runtime.cache import Cache
@@ -97,6 +98,7 @@ def _making(surface: Surface, method: str, devices: Devices) -> tuple[float, flo
         for _ in ("compile and keep", "load"):
             meter = Meter(devices.fresh(Cache(Path(folder))))
             render(surface, SMALL, method=method, device=meter)
+            settle()
             spent.append((meter.milliseconds, meter.compilations))
     (compiled, _), (loaded, again) = spent
     return compiled, None if again else loaded

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from zeroset.bench.devices import Devices
 from zeroset.bench.meter import Meter
+from zeroset.rendering.frame import settle
 from zeroset.rendering.render import render
 from zeroset.scene.camera import Camera, parse_camera
 from zeroset.scene.surface import Surface
@@ -75,7 +76,9 @@ def measure_memory(
     for i in range(frames):
         progress(i / frames)
         render(_moved(surface, i / frames), size, _turned(camera, i / frames), method, meter)
-        first = meter.compilations if i == 0 else first
+        if i == 0:
+            settle()
+            first = meter.compilations
         before = resident() if i == min(WARM_UP, frames - 1) else before
     after = resident()
     growth = None if before is None or after is None else after - before

@@ -23,10 +23,12 @@ class Meter:
         milliseconds: during which programs were being obtained, from wherever they came; several at once count once.
 
     Example:
+        >>> from zeroset.rendering.frame import settle
         >>> from zeroset.rendering.render import render
         >>> from zeroset.runtime import get_device
         >>> meter = Meter(get_device("interp"))
         >>> image = render("x^2 + y^2 + z^2 = 1", size=8, device=meter)
+        >>> settle()
         >>> meter.compilations > 0, meter.milliseconds > 0
         (True, True)
     """

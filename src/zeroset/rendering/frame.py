@@ -79,6 +79,10 @@ class Frame:
         self._rgba = device.allocate(U32, layout.width * layout.height)
         self._shown: weakref.ref[GBuffer] | None = None
 
+    def settle(self) -> None:
+        """Wait until all of the frame's programs are there."""
+        self._tracer.settle()
+
     def _shader(self) -> Program:
         def build() -> Kernel:
             from zeroset.rendering.shade import shade_kernel
@@ -133,3 +137,11 @@ def frame_for(surface: Surface, method: Method, lights: int, layout: Layout, dev
         while len(_frames) > 1 and (len(_frames) > KEPT or sum(f.layout.lanes for f in _frames.values()) > KEPT_LANES):
             _frames.popitem(last=False)
     return frame
+
+
+def settle() -> None:
+    """Wait until everything that the kept frames have begun to compile is there; for those who count or time it."""
+    with _frames_lock:
+        frames = tuple(_frames.values())
+    for frame in frames:
+        frame.settle()

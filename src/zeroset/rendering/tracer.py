@@ -23,8 +23,8 @@ from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
 Buffers = Mapping[str, Any]
-AHEAD = ("beams", "first", "thin")
-"""Passes whose programs are made ahead, in the order in which they are needed; the second look is often not needed."""
+ORDER = ("beams", "first", "thin", "second")
+"""Passes in the order in which their programs are made: the second look, which a picture often needs not, at last."""
 
 
 class Tracer:
@@ -100,10 +100,17 @@ class Tracer:
         Two at a time: while LLVM works on one kernel, outside Python's lock, the next one is traced.
         """
         pool = ThreadPoolExecutor(2)
-        self._coming = {name: pool.submit(self._compiled, name) for name in AHEAD if name in self._builders}
+        *ahead, last = (name for name in ORDER if name in self._builders)
+        self._coming = {name: pool.submit(self._compiled, name) for name in ahead}
         for other in others:
             pool.submit(other)
+        self._coming[last] = pool.submit(self._compiled, last)
         pool.shutdown(wait=False)
+
+    def settle(self) -> None:
+        """Wait until all that ``compile`` began is there."""
+        for name in tuple(self._coming):
+            self.program(name)
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles."""

@@ -15,7 +15,12 @@ from zeroset.expr.constants import check_constants
 from zeroset.expr.decimals import Decimals
 from zeroset.expr.series import SLACK, arctangent, pi, sine_cosine
 
-flint.ctx.prec = 3_000
+
+@pytest.fixture(autouse=True)
+def _precise():
+    """Arb's precision is one for the whole process: other tests have theirs."""
+    with flint.ctx.workprec(3_000):
+        yield
 
 
 def ball(value):
