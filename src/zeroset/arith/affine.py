@@ -53,6 +53,8 @@ class Affine(Number):
         budget: the rounding account.
         flags: where f is defined on the box.
         bounds: an interval that holds f too, or None.
+        nonnegative: whether f >= 0 is known while tracing. The form itself may reach below 0, by its error; the range
+            does not, so that a root of a sum of squares is defined everywhere.
 
     Example:
         >>> from zeroset.arith import F64, AffineSystem
@@ -62,7 +64,7 @@ class Affine(Number):
         (False, True)
     """
 
-    __slots__ = ("_system", "bounds", "budget", "centre", "error", "flags", "terms")
+    __slots__ = ("_system", "bounds", "budget", "centre", "error", "flags", "nonnegative", "terms")
 
     def __init__(
         self,
@@ -73,6 +75,7 @@ class Affine(Number):
         budget: Budget | None = None,
         flags: Flags = TOTAL,
         bounds: Interval | None = None,
+        nonnegative: bool = False,
     ) -> None:
         self._system = system
         self.centre = centre
@@ -81,6 +84,7 @@ class Affine(Number):
         self.budget = Budget() if budget is None else budget
         self.flags = flags
         self.bounds = bounds
+        self.nonnegative = nonnegative
 
     def __repr__(self) -> str:
         return f"Affine({self.centre!r}, {self.terms!r}, {self.error!r})"
@@ -115,6 +119,19 @@ class Affine(Number):
         """Whether this is known while tracing altogether."""
         return is_literal(self.centre, self.error) and all(is_zero(u) for u in self.terms)
 
+    @property
+    def is_nonnegative(self) -> bool:
+        """Whether f >= 0 is known while tracing, for constants by their value."""
+        return self.nonnegative or (self.is_constant and bool(self.centre >= 2 * self.error))
+
+    def knowing(self, nonnegative: bool) -> Affine:
+        """This form, perhaps with the knowledge that what it stands for is not negative."""
+        if not nonnegative or self.nonnegative:
+            return self
+        return Affine(
+            self._system, self.centre, self.terms, self.error, self.budget, self.flags, self.bounds, nonnegative=True
+        )
+
     def radius(self) -> Scalar:
         """sum |u_i| + error, before repayment."""
         total = self.error
@@ -143,7 +160,9 @@ class Affine(Number):
     def interval(self) -> Interval:
         """The range, as an interval."""
         low, high = self.form_range()
-        form = Interval(self._system.intervals, low, high, self.flags)
+        if self.is_nonnegative:
+            low, high = maximum(low, 0.0), maximum(high, 0.0)
+        form = Interval(self._system.intervals, low, high, self.flags, self.is_nonnegative)
         return form if self.bounds is None else self.bounds.meet(form)
 
     def contains_zero(self) -> Mask:
@@ -175,24 +194,54 @@ class Affine(Number):
             return self
         return self.make(self.centre, self.terms, self.error, self.budget, bounds=bounds)
 
-    add = arithmetic.add
+    def add(self, other: Affine, /) -> Affine:
+        """The sum."""
+        return arithmetic.add(self, other).knowing(self.is_nonnegative and other.is_nonnegative)
+
+    def mul(self, other: Affine, /) -> Affine:
+        """The product."""
+        return arithmetic.mul(self, other).knowing(self.is_nonnegative and other.is_nonnegative)
+
+    def sqr(self) -> Affine:
+        """The square."""
+        return arithmetic.sqr(self).knowing(True)
+
+    def powi(self, n: int, /) -> Affine:
+        """A whole power."""
+        return arithmetic.powi(self, n).knowing(n % 2 == 0 or self.is_nonnegative)
+
+    def abs(self) -> Affine:
+        """The absolute value."""
+        return choice.absolute(self).knowing(True)
+
+    def max(self, other: Affine, /) -> Affine:
+        """The larger of two."""
+        return choice.larger(self, other).knowing(self.is_nonnegative or other.is_nonnegative)
+
+    def min(self, other: Affine, /) -> Affine:
+        """The smaller of two."""
+        return choice.smaller(self, other).knowing(self.is_nonnegative and other.is_nonnegative)
+
+    def powr(self, exponent: tuple[int, int], /) -> Affine:
+        """A rational power."""
+        return functions.rational_power(self, exponent).knowing(True)
+
+    def sqrt(self) -> Affine:
+        """The square root."""
+        return functions.sqrt(self).knowing(True)
+
+    def exp(self) -> Affine:
+        """The exponential function."""
+        return functions.exp(self).knowing(True)
+
     sub = arithmetic.sub
     neg = arithmetic.neg
-    mul = arithmetic.mul
     div = functions.divide
-    sqr = arithmetic.sqr
-    powi = arithmetic.powi
-    abs = choice.absolute
     sign = choice.sign
     floor = choice.floor
     mod = choice.mod
-    max = choice.larger
-    min = choice.smaller
     pow = functions.power
-    powr = functions.rational_power
     cbrt = functions.cbrt
-    sqrt = functions.sqrt
-    exp = functions.exp
     log = functions.log
     sin = functions.sin
     cos = functions.cos

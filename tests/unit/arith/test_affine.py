@@ -218,8 +218,22 @@ def test_absolute_value_is_the_chord():
     size = abs(system.symbol(0, np.array([0.0, 0.5, 2.0, -2.0]), np.array([1.0, 1.0, 1.0, 1.0])))
     assert size.terms[0].tolist() == pytest.approx([0.0, 0.5, 1.0, -1.0])
     assert size.error.tolist() == pytest.approx([0.5, 0.375, 0.0, 0.0])
+    # The chord's form alone would reach down to -1/4; what it stands for is known not to.
     box = size.interval()
-    assert box.lo.tolist() == pytest.approx([0.0, -0.25, 1.0, 1.0])
+    assert box.lo.tolist() == pytest.approx([0.0, 0.0, 1.0, 1.0])
+    assert size.form_range()[0].tolist() == pytest.approx([0.0, -0.25, 1.0, 1.0])
+
+
+@pytest.mark.parametrize("fmt", [F32, F64], ids=["f32", "f64"])
+def test_roots_of_what_is_not_negative_are_defined_down_to_zero(fmt):
+    system = AffineSystem(fmt)
+    x = system.symbol(0, np.array([0.0, 0.3, -1.0], fmt.dtype), np.array([1.0, 0.5, 2.0], fmt.dtype))
+    y = system.exact(np.zeros(3, fmt.dtype))
+    with np.errstate(all="ignore"):
+        for f in ((x.sqr() + y.sqr()).sqrt(), abs(x).powr((3, 2)), (x.sqr() * abs(x)).sqrt(), x.max(y).powr((1, 3))):
+            assert np.all(f.defined)
+            assert not np.any(f.empty)
+        assert not np.any(x.sqrt().defined)
 
 
 def test_undecided_selection_is_the_mean():
