@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -70,6 +72,8 @@ def command(
             existing_folder(extra)
     scene = find_scene(source, params, bounds)
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
+    # What writes pictures is loaded while the compiler works, outside Python's lock.
+    threading.Thread(target=importlib.import_module, args=("PIL.Image",), daemon=True).start()
     begin = time.perf_counter()
     with Progress("drawing") as progress:
         image = render(scene, read_size(size), None, read_method(method), device, tolerance, progress=progress)
