@@ -36,7 +36,6 @@ COLUMNS = (
     "other pixels",
     "note",
 )
-TRIAL = Path(__file__).parent.parent.parent / "shared" / "trial" / "trial.py"
 
 
 def main() -> int:
@@ -70,9 +69,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--rounds", type=int, default=3, help="turns of each program")
     parser.add_argument("--longest", type=float, default=120.0, help="seconds after which a peer is stopped")
     parser.add_argument("--markdown", action="store_true", help="print the table in Markdown")
-    parser.add_argument(
-        "--trial", type=Path, default=TRIAL, help="script of the design's trial, timed where it is there"
-    )
+    parser.add_argument("--trial", type=Path, help="script of an early trial of the design, to time in the same run")
     options = parser.parse_args()
     options.folder = options.folder.resolve()
     unknown = set(options.cases) - {case.name for case in CASES}
@@ -89,7 +86,7 @@ def _one_core() -> None:
 
 def _compare(case: Case, options: argparse.Namespace) -> list[tuple[str, ...]]:
     competitors = programs.programs(case, options.size, options.folder, options.longest)
-    if case.name == "barth-sextic" and options.trial.exists():
+    if case.name == "barth-sextic" and options.trial is not None:
         competitors.append(programs.trial(options.trial))
     for i in range(options.rounds):
         for program in competitors:
