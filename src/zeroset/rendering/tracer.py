@@ -44,6 +44,7 @@ class Tracer:
         self._builders = self._kernels(surface, pixels)
         self._programs: dict[str, Program] = {}
         self._coming: dict[str, Future[Program]] = {}
+        self._others: list[Future[object]] = []
 
     def _kernels(self, surface: Surface, pixels: bool) -> dict[str, Callable[[], Kernel]]:
         field, kind, method = surface.field, bounds_kind(surface.bounds), self._method
@@ -102,8 +103,7 @@ class Tracer:
         pool = ThreadPoolExecutor(2)
         *ahead, last = (name for name in ORDER if name in self._builders)
         self._coming = {name: pool.submit(self._compiled, name) for name in ahead}
-        for other in others:
-            pool.submit(other)
+        self._others = [pool.submit(other) for other in others]
         self._coming[last] = pool.submit(self._compiled, last)
         pool.shutdown(wait=False)
 
@@ -111,6 +111,8 @@ class Tracer:
         """Wait until all that ``compile`` began is there."""
         for name in tuple(self._coming):
             self.program(name)
+        for other in self._others:
+            other.result()
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles."""
