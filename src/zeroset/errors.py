@@ -11,6 +11,8 @@
     ├── UnknownSurfaceError (KeyError)     no gallery entry of that name
     ├── MethodError (ValueError)           a method that is unknown or cannot treat this surface
     ├── DeviceError (RuntimeError)         a device that is absent or failed
+    │   └── DeviceLostError                a GPU that was reset, switched off or taken away
+    ├── ViewError (RuntimeError)           a window that cannot be opened: no display, something not installed
     ├── KernelError (RuntimeError)         a kernel that breaks a rule of the kernel language
     ├── SceneFileError (ValueError)        a scene file that cannot be read (path and line)
     └── OutputError (OSError)              a file that cannot be written
@@ -33,6 +35,7 @@ __all__ = [
     "BoundsError",
     "CameraError",
     "DeviceError",
+    "DeviceLostError",
     "FormulaError",
     "FormulaLimitError",
     "KernelError",
@@ -42,6 +45,7 @@ __all__ = [
     "SceneFileError",
     "UnknownNameError",
     "UnknownSurfaceError",
+    "ViewError",
     "ZerosetError",
     "did_you_mean",
     "nearest_names",
@@ -176,6 +180,14 @@ class MethodError(ZerosetError, ValueError):
 
 class DeviceError(ZerosetError, RuntimeError):
     """A device that is absent, or that failed at run time."""
+
+
+class DeviceLostError(DeviceError):
+    """A GPU was reset, switched off or taken away; asking for the device again opens it anew."""
+
+
+class ViewError(ZerosetError, RuntimeError):
+    """A window that cannot be opened: there is no display, or something that windows need is not installed."""
 
 
 class KernelError(ZerosetError, RuntimeError):

@@ -11,28 +11,40 @@ from typing import Any
 import numpy as np
 import pytest
 
+from zeroset.errors import DeviceError
 from zeroset.kernel import Kernel, interp, verify
 from zeroset.kernel.passes import optimise
 from zeroset.runtime import Device
 from zeroset.runtime.cache import Cache
 from zeroset.runtime.cpu import CpuDevice, host
+from zeroset.runtime.gpu import GpuDevice
 
 Agree = Callable[..., dict[str, np.ndarray[Any, Any]]]
 
 
 def devices() -> dict[str, Device]:
     """Every backend of this machine. Contraction is off: with it, sums of products may differ by a rounding."""
-    return {
-        **{f"cpu-{t.name}": CpuDevice(t.uncontracted(), threads=2, cache=Cache(None)) for t in host()},
-    }
+    cpus = {f"cpu-{t.name}": CpuDevice(t.uncontracted(), threads=2, cache=Cache(None)) for t in host()}
+    return cpus | ({} if isinstance(GPU, str) else {"gpu": GPU})
 
 
+def _gpu() -> GpuDevice | str:
+    """The best GPU, or why there is none."""
+    try:
+        return GpuDevice(cache=Cache(None))
+    except DeviceError as error:
+        return str(error).splitlines()[0]
+
+
+GPU = _gpu()
 DEVICES = devices()
 
 
-@pytest.fixture(params=DEVICES, scope="session")
+@pytest.fixture(params=[*DEVICES] if "gpu" in DEVICES else [*DEVICES, "gpu"], scope="session")
 def device(request: pytest.FixtureRequest) -> Device:
-    """Each backend in turn."""
+    """Each backend in turn; a GPU that is not there is skipped, aloud."""
+    if request.param not in DEVICES:
+        pytest.skip(f"no GPU: {GPU}")
     return DEVICES[request.param]
 
 
@@ -89,11 +101,19 @@ def agree(device: Device) -> Agree:
 
 @pytest.fixture(scope="session")
 def agree_everywhere() -> Agree:
-    """The same on every device at once, for generated kernels."""
+    """The same on every CPU target at once, for generated kernels."""
 
     def check(kernel: Kernel, count: int, *arguments: Any, votes: bool = False) -> None:
         for one in DEVICES.values():
-            width = one.target.width if isinstance(one, CpuDevice) else 1
-            agree_on(one, kernel, width if votes else count, *arguments)
+            if isinstance(one, CpuDevice):
+                agree_on(one, kernel, one.target.width if votes else count, *arguments)
 
     return check
+
+
+@pytest.fixture(scope="session")
+def agree_on_gpus() -> Agree:
+    """``agree`` on the GPU, for generated kernels that any GPU must run exactly."""
+    if isinstance(GPU, str):
+        pytest.skip(f"no GPU: {GPU}")
+    return lambda *arguments, **named: agree_on(GPU, *arguments, **named)

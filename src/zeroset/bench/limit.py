@@ -14,7 +14,7 @@ from zeroset.arith import F32 as FORMAT
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, Kernel, KernelBuilder, lift, store
 from zeroset.rendering.layout import Layout, pixel_coordinates
-from zeroset.rendering.values import array_buffers, parameter_uniforms
+from zeroset.rendering.values import Arrays, parameter_uniforms
 from zeroset.runtime import Device
 from zeroset.scene.surface import Surface
 from zeroset.solve import resolve_method
@@ -53,7 +53,7 @@ def limit_action(surface: Surface, size: int, device: Device) -> Callable[[], No
     """
     layout = Layout(size, size)
     program = device.compile_cached(f"limit {surface.field.digest}", lambda: limit_kernel(surface.field))
-    buffers = {"limit": device.allocate(F32, layout.lanes)} | array_buffers(surface, device)
+    buffers = {"limit": device.allocate(F32, layout.lanes)} | Arrays(device).bind(surface)
     bounds = surface.fitted
     uniforms = layout.uniforms() | parameter_uniforms(surface, resolve_method("auto"))
     uniforms |= dict(zip(PLACE, (*bounds.center, bounds.reach), strict=True))

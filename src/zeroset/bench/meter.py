@@ -81,6 +81,27 @@ class Meter:
         """A buffer of the wrapped device."""
         return self._device.allocate(type_, count)
 
+    def supports(self, type_: Type) -> bool:
+        """Whether the wrapped device's kernels may calculate with a type."""
+        return self._device.supports(type_)
+
+    @property
+    def largest(self) -> int:
+        """The most bytes that a buffer of the wrapped device may have."""
+        return self._device.largest
+
+    def clear(self, buffer: Any) -> None:
+        """Set all elements of a buffer to zero."""
+        self._device.clear(buffer)
+
+    def copy(self, buffer: Any) -> Any:
+        """Another buffer with the same elements."""
+        return self._device.copy(buffer)
+
+    def submit(self) -> None:
+        """Let the wrapped device begin what it was asked for."""
+        self._device.submit()
+
     def write(self, buffer: Any, values: Array) -> None:
         """Set the first elements of a buffer."""
         self._device.write(buffer, values)

@@ -14,5 +14,7 @@ THIN = {"block_missed": U32, "thin_block": U32, "thin_pixel": U32}
 and of pixels that may hold something thinner than a pixel."""
 COUNTERS = "counters"
 """How long the lists are: the second look's, the blocks' and the pixels' with thin parts."""
+PICTURE = "rgba"
+"""The picture, packed bytes in rows."""
 BLOCK = 16
 """Pixels in a block of 4x4."""

@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import U32
-from zeroset.rendering.buffers import FIELDS
+from zeroset.rendering.buffers import COUNTERS, FIELDS, PICTURE
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device, Program
@@ -32,6 +32,8 @@ Progress = Callable[[float], None]
 
 SLICES = 50
 """Parts that a frame is drawn in where somebody watches its progress."""
+MOST_AT_ONCE = 1 << 20
+"""Rays handed over at once: systems end the work of a GPU that takes seconds over it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,22 +49,29 @@ class Structure:
 
 
 class GBuffer:
-    """One frame's G-buffer: shared with the frame until its next draw, its own from then on."""
+    """One frame's outputs: shared with the frame until its next draw, its own from then on; read when asked for."""
 
-    def __init__(self, layout: Layout, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
+    def __init__(self, layout: Layout, device: Device, buffers: Mapping[str, Any]) -> None:
         self._layout = layout
-        self._arrays = arrays
+        self._device = device
+        self._buffers = buffers
         self._lock = threading.Lock()
 
     def rows(self, name: str) -> npt.NDArray[Any]:
         """One output in rows."""
         with self._lock:
-            return self._layout.unscramble(self._arrays[name])
+            return self._layout.unscramble(self._device.read(self._buffers[name]))
+
+    def picture(self) -> npt.NDArray[np.uint8]:
+        """The picture, (height, width, 4)."""
+        with self._lock:
+            rgba = self._device.read(self._buffers[PICTURE]).copy()
+        return rgba.view(np.uint8).reshape(self._layout.height, self._layout.width, 4)
 
     def keep(self) -> None:
         """Copy what is shared, before it is written over."""
         with self._lock:
-            self._arrays = {name: array.copy() for name, array in self._arrays.items()}
+            self._buffers = {name: self._device.copy(buffer) for name, buffer in self._buffers.items()}
 
 
 class Frame:
@@ -76,7 +85,8 @@ class Frame:
         self._lights = lights
         self._tracer.compile(self._shader)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
-        self._rgba = device.allocate(U32, layout.width * layout.height)
+        self.picture = device.allocate(U32, layout.width * layout.height)
+        """The picture's pixels in rows, for those who show them without reading them."""
         self._shown: weakref.ref[GBuffer] | None = None
 
     def settle(self) -> None:
@@ -93,27 +103,31 @@ class Frame:
 
     def draw(
         self, surface: Surface, uniforms: Mapping[str, float], thin: bool, progress: Progress | None = None
-    ) -> tuple[npt.NDArray[np.uint8], GBuffer]:
-        """Run the passes; gives the picture, (height, width, 4), and the G-buffer."""
+    ) -> GBuffer:
+        """Run the passes; gives the outputs, which a GPU may still be working on."""
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
             shown.keep()
         bound = self._tracer.begin(surface, uniforms, self._buffers, self.layout.tiles)
         lanes = self.layout.lanes
-        part = lanes if progress is None else max(1, self.layout.tiles // SLICES) * TILE * TILE
+        part = MOST_AT_ONCE if progress is None else max(1, self.layout.tiles // SLICES) * TILE * TILE
         for first in range(0, lanes, part):
             if progress is not None:
+                # Reading is waiting: what was asked for so far is done.
+                self.device.read(self._buffers[COUNTERS])
                 progress(first / lanes)
             self._tracer.first_look(uniforms, bound, first, min(part, lanes - first))
+            self.device.submit()
         self._tracer.second_look(surface, uniforms, bound)
         if thin:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
-        self._shader().run(lanes, uniforms, {**bound, "rgba": self._rgba})
-        arrays = {name: self.device.read(self._buffers[name]) for name in FIELDS}
-        outputs = GBuffer(self.layout, arrays)
+        self._shader().run(lanes, uniforms, {**bound, PICTURE: self.picture})
+        self.device.submit()
+        outputs = GBuffer(
+            self.layout, self.device, {PICTURE: self.picture} | {name: self._buffers[name] for name in FIELDS}
+        )
         self._shown = weakref.ref(outputs)
-        picture = self.device.read(self._rgba).copy().view(np.uint8)
-        return picture.reshape(self.layout.height, self.layout.width, 4), outputs
+        return outputs
 
 
 _frames: OrderedDict[Structure, Frame] = OrderedDict()

@@ -71,6 +71,7 @@ class Image:
     """An RGB picture with the frame's G-buffer behind it.
 
     Attributes:
+        size: width and height in pixels.
         pixels: (height, width, 3) uint8, sRGB.
         certified: whether the method proves its answers.
 
@@ -83,10 +84,15 @@ class Image:
         np.uint32(1)
     """
 
-    def __init__(self, rgba: npt.NDArray[np.uint8], outputs: GBuffer, certified: bool) -> None:
-        self.pixels = rgba[..., :3]
+    def __init__(self, size: tuple[int, int], outputs: GBuffer, certified: bool) -> None:
+        self.size = size
         self.certified = certified
         self._outputs = outputs
+
+    @cached_property
+    def pixels(self) -> npt.NDArray[np.uint8]:
+        """The colours; fetched from the device when first asked for."""
+        return self._outputs.picture()[..., :3]
 
     @cached_property
     def hits(self) -> int:
@@ -97,11 +103,6 @@ class Image:
     def unresolved(self) -> int:
         """How many pixels could be neither proven nor excluded; they are drawn as hits."""
         return int(np.count_nonzero(self.aov("status") == UNRESOLVED))
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """Width and height in pixels."""
-        return self.pixels.shape[1], self.pixels.shape[0]
 
     def aov(self, name: str) -> npt.NDArray[Any]:
         """One output of the G-buffer, in rows.

@@ -94,8 +94,8 @@ def render(
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
     uniforms |= shading_uniforms(scene.material, lit, scene.background, rays)
     with frame.lock:
-        picture, outputs = frame.draw(shown, uniforms, thin, progress)
-    return Image(picture, outputs, chosen.certified)
+        outputs = frame.draw(shown, uniforms, thin, progress)
+    return Image((layout.width, layout.height), outputs, chosen.certified)
 
 
 def _layout(size: tuple[int, int] | int) -> Layout:

@@ -10,14 +10,12 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
-import numpy as np
-
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
 from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, SECOND, THIN
 from zeroset.rendering.layout import TILE
-from zeroset.rendering.values import array_buffers, parameter_uniforms
-from zeroset.runtime import Device, Program
+from zeroset.rendering.values import Arrays, parameter_uniforms
+from zeroset.runtime import Counted, Device, Program
 from zeroset.scene.bounds import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
@@ -40,6 +38,8 @@ class Tracer:
         self._device = device
         self.certified = method.certified
         self.beams = pixels and method.certified
+        self._second = method.certified and device.supports(F64)
+        self._arrays = Arrays(device)
         self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels}"
         self._builders = self._kernels(surface, pixels)
         self._programs: dict[str, Program] = {}
@@ -54,7 +54,7 @@ class Tracer:
         def first() -> Kernel:
             from zeroset.rendering.primary import trace_kernel
 
-            return trace_kernel(field, method, kind, pixels, self.beams, self.certified)
+            return trace_kernel(field, method, kind, pixels, self.beams, self._second)
 
         def second() -> Kernel:
             from zeroset.rendering.primary import second_kernel
@@ -72,7 +72,7 @@ class Tracer:
             return thin_kernel(field, offset, kind)
 
         made: dict[str, Callable[[], Kernel]] = {"first": first}
-        if self.certified:
+        if self._second:
             made["second"] = second
         if self.beams:
             made |= {"beams": beams, "thin": thin}
@@ -116,7 +116,7 @@ class Tracer:
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles."""
-        wanted = FIELDS | (SECOND if self.certified else {})
+        wanted = FIELDS | (SECOND if self._second else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, 3)
         if self.beams:
@@ -129,10 +129,10 @@ class Tracer:
 
     def begin(self, surface: Surface, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
         """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters."""
-        bound = {**buffers, **array_buffers(surface, self._device)} if surface.arrays else buffers
-        self._device.write(buffers[COUNTERS], np.zeros(3, np.uint32))
+        bound = {**buffers, **self._arrays.bind(surface)} if surface.arrays else buffers
+        self._device.clear(buffers[COUNTERS])
         if self.beams:
-            self._device.write(buffers["block_missed"], np.zeros(tiles * TILE * TILE // BLOCK, np.uint32))
+            self._device.clear(buffers["block_missed"])
             self.program("beams").run(tiles, uniforms, bound)
         return bound
 
@@ -141,12 +141,12 @@ class Tracer:
         self.program("first").run(count, {**uniforms, "first": first}, bound)
 
     def second_look(self, surface: Surface, uniforms: Mapping[str, float], bound: Buffers) -> None:
-        """Trace the rays that the first look left unresolved again, in f64."""
-        count = int(self._device.read(bound[COUNTERS])[0]) if self.certified else 0
-        if count:
-            exact = {**uniforms, **parameter_uniforms(surface, self._method, F64)}
-            arrays = array_buffers(surface, self._device, F64) if surface.arrays else {}
-            self.program("second").run(count, exact, {**bound, **arrays})
+        """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so."""
+        if not self._second:
+            return
+        exact = {**uniforms, **parameter_uniforms(surface, self._method, F64)}
+        arrays = self._arrays.bind(surface, F64) if surface.arrays else {}
+        self.program("second").run(Counted(bound[COUNTERS], 0), exact, {**bound, **arrays})
 
     def thin_parts(self, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
         """Draw what lies between the rays: by blocks, by the pixels of those, by the parts of those."""
@@ -156,7 +156,4 @@ class Tracer:
         program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "level": 0}, bound)
         # What one run puts on a list, the next looks at in sixteen pieces each.
         for level in (1, 2):
-            count = int(self._device.read(bound[COUNTERS])[level])
-            if not count:
-                return
-            program.run(count * BLOCK, {**uniforms, "level": level}, bound)
+            program.run(Counted(bound[COUNTERS], level, BLOCK), {**uniforms, "level": level}, bound)

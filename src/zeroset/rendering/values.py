@@ -42,14 +42,33 @@ def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32) -> d
     return named | {length_name(name): len(surface.arrays[name]) for name in surface.field.arrays}
 
 
-def array_buffers(surface: Surface, device: Device, type_: Type = F32) -> dict[str, Any]:
-    """Two buffers for each array parameter."""
-    made: dict[str, Any] = {}
-    for name in surface.field.arrays:
-        for key, values in zip(array_names(name, type_), stored(surface.arrays[name], type_), strict=True):
-            made[key] = device.allocate(type_, len(values))
-            device.write(made[key], values)
-    return made
+class Arrays:
+    """The buffers of array parameters on one device: made once, written anew where values have changed.
+
+    Each array has two, for its values and for what rounding leaves out of them.
+    """
+
+    def __init__(self, device: Device) -> None:
+        self._device = device
+        self._buffers: dict[str, Any] = {}
+        self._written: dict[str, Floats] = {}
+
+    def bind(self, surface: Surface, type_: Type = F32) -> dict[str, Any]:
+        """The buffers by name, with the surface's values in them."""
+        bound: dict[str, Any] = {}
+        for name in surface.field.arrays:
+            for key, values in zip(array_names(name, type_), stored(surface.arrays[name], type_), strict=True):
+                bound[key] = self._buffer(key, values, type_)
+        return bound
+
+    def _buffer(self, key: str, values: Floats, type_: Type) -> Any:
+        written = self._written.get(key)
+        if written is None or len(written) != len(values):
+            self._buffers[key] = self._device.allocate(type_, len(values))
+        if written is None or not np.array_equal(written, values):
+            self._device.write(self._buffers[key], values)
+            self._written[key] = values
+        return self._buffers[key]
 
 
-__all__ = ["array_buffers", "parameter_uniforms", "stored"]
+__all__ = ["Arrays", "parameter_uniforms", "stored"]

@@ -7,7 +7,6 @@ to 600 instructions they gained no speed and doubled the time to compile.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -20,11 +19,10 @@ from zeroset.runtime.compiled import Compiled
 from zeroset.runtime.device import HostMemory, Signature
 from zeroset.runtime.pool import Pool, thread_count
 from zeroset.runtime.program import CpuProgram
+from zeroset.runtime.programs import Programs
 from zeroset.runtime.stamps import cpu_stamp, llvm_stamp, source_stamp
 
 _ENTRY = "drain"
-_IN_MEMORY = 256
-"""Programs that a device remembers; older ones live as long as somebody holds them."""
 
 
 class CpuDevice(HostMemory):
@@ -53,10 +51,9 @@ class CpuDevice(HostMemory):
         self._target = target
         self._pool = Pool(threads or thread_count())
         self.cache = default_cache() if cache is None else cache
-        self._programs: dict[str, CpuProgram] = {}
-        self._busy = threading.Lock()
         machine = target.identity if target else cpu_stamp() or self.target.identity
-        self._stamp = f"{machine}|{source_stamp()}|{llvm_stamp()}"
+        stamp = f"{machine}|{source_stamp()}|{llvm_stamp()}"
+        self._programs = Programs(self.cache, stamp, self._translate, self._place)
 
     @property
     def target(self) -> Target:
@@ -72,53 +69,20 @@ class CpuDevice(HostMemory):
 
     def compile(self, kernel: Kernel) -> CpuProgram:
         """The program of a kernel; see ``Device.compile``."""
-        return self._known(kernel.digest) or self._remember(kernel.digest, self._obtain(kernel))
+        return self._programs.of(kernel)
 
     def compile_cached(self, key: str, build: Callable[[], Kernel]) -> CpuProgram:
         """The program under a key; see ``Device.compile_cached``."""
-        # Nothing is held while kernels are traced and compiled: several may be under way at once.
-        name = f"key {key}"
-        known = self._known(name)
-        if known is None:
-            digest = self.cache.follow(f"{name}|{self._stamp}")
-            known = None if digest is None else self._known(digest) or self._recall(digest)
-        if known is None:
-            kernel = build()
-            known = self.compile(kernel)
-            self.cache.link(f"{name}|{self._stamp}", kernel.digest)
-        return self._remember(name, known)
+        return self._programs.under(key, build)
 
-    def _known(self, name: str) -> CpuProgram | None:
-        with self._busy:
-            return self._programs.get(name)
-
-    def _remember(self, name: str, program: CpuProgram) -> CpuProgram:
-        """Keep a program; the one that was there first stays where two threads made the same."""
-        with self._busy:
-            program = self._programs.pop(name, program)
-            self._programs[name] = program
-            while len(self._programs) > _IN_MEMORY:
-                del self._programs[next(iter(self._programs))]
-        return program
-
-    def _recall(self, digest: str) -> CpuProgram | None:
-        """A program from the disk."""
-        compiled = self.cache.get(f"{digest}|{self._stamp}")
-        return None if compiled is None else self._place(compiled)
-
-    def _obtain(self, kernel: Kernel) -> CpuProgram:
-        known = self._recall(kernel.digest)
-        if known is not None:
-            return known
+    def _translate(self, kernel: Kernel) -> Compiled:
         from zeroset.codegen import llvm
         from zeroset.kernel.passes import optimise
 
         code = llvm.to_object(llvm.to_llvm(optimise(kernel), self.target), self.target)
         flat = image.link(code, _ENTRY) if image.can_place() else None
         kind, data = ("object", code) if flat is None else ("image", flat)
-        compiled = Compiled(Signature.of(kernel), self.target.width, kind, data)
-        self.cache.put(f"{kernel.digest}|{self._stamp}", compiled)
-        return self._place(compiled)
+        return Compiled(Signature.of(kernel), self.target.width, kind, data)
 
     def _place(self, compiled: Compiled) -> CpuProgram:
         try:

@@ -3,7 +3,8 @@
 A device compiles kernels to programs and holds buffers; a program runs on buffers and uniforms. The contract is made
 so that a frame allocates and compiles nothing: buffers live as long as their owner keeps them, uniforms are numbers
 packed anew for each run, and a program is asked for once. On the CPU a buffer is a NumPy array that the caller may
-read at any time; on other devices it is a handle, and ``read`` and ``write`` move the data.
+read at any time; on other devices it is a handle, and ``read`` and ``write`` move the data. All work on a device
+happens in the order it was asked for, but not always at once: a GPU collects it until ``submit`` or ``read``.
 """
 
 from __future__ import annotations
@@ -59,6 +60,21 @@ class Signature:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """A number of lanes that an earlier pass has written into a buffer; a GPU never brings it to the host.
+
+    Attributes:
+        buffer: a u32 buffer of the device.
+        index: which element.
+        times: lanes for each that was counted.
+    """
+
+    buffer: Any
+    index: int = 0
+    times: int = 1
+
+
 class Program(Protocol):
     """A kernel made ready for one device."""
 
@@ -67,8 +83,8 @@ class Program(Protocol):
         """What ``run`` must be given."""
         ...
 
-    def run(self, count: int, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
-        """Run ``count`` lanes and return when all have finished.
+    def run(self, count: int | Counted, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
+        """Run ``count`` lanes, after all that was asked of the device before.
 
         Args:
             count: lanes, 0 to 2^31 - 1.
@@ -104,21 +120,48 @@ class Device(Protocol):
         """
         ...
 
+    def supports(self, type_: Type) -> bool:
+        """Whether kernels may calculate with a type; all but f64 are everywhere."""
+        ...
+
+    @property
+    def largest(self) -> int:
+        """The most bytes that a buffer may have."""
+        ...
+
     def allocate(self, type_: Type, count: int) -> Any:
-        """A buffer of zeros."""
+        """A buffer of zeros; ``DeviceError`` where there is no memory for it."""
         ...
 
     def write(self, buffer: Any, values: Array) -> None:
         """Set the first elements of a buffer."""
         ...
 
+    def clear(self, buffer: Any) -> None:
+        """Set all elements of a buffer to zero."""
+        ...
+
+    def copy(self, buffer: Any) -> Any:
+        """Another buffer with the same elements."""
+        ...
+
     def read(self, buffer: Any) -> Array:
-        """The elements of a buffer."""
+        """The elements of a buffer, when all that was asked of the device before has been done."""
+        ...
+
+    def submit(self) -> None:
+        """Let the device begin what it was asked for; without waiting for it."""
         ...
 
 
 class HostMemory:
-    """Buffers of devices that share the host's memory: NumPy arrays."""
+    """Buffers of devices that share the host's memory: NumPy arrays; their programs run at once."""
+
+    largest = 2**40
+
+    def supports(self, type_: Type) -> bool:
+        """Every type."""
+        return True
 
     def allocate(self, type_: Type, count: int) -> Array:
         """An array of zeros, aligned to cache lines."""
@@ -131,15 +174,32 @@ class HostMemory:
         """Set the first elements of an array."""
         buffer[: len(values)] = values
 
+    def clear(self, buffer: Array) -> None:
+        """Set all elements of an array to zero."""
+        buffer.fill(0)
+
+    def copy(self, buffer: Array) -> Array:
+        """A copy of an array."""
+        return buffer.copy()
+
     def read(self, buffer: Array) -> Array:
         """The array itself."""
         return buffer
 
+    def submit(self) -> None:
+        """Nothing: what was asked for is done."""
 
-def check_count(signature: Signature, count: int) -> None:
-    """Raise ``DeviceError`` unless the count is one that every device can run."""
+
+def lanes_of(count: int | Counted) -> int:
+    """The number of lanes, where buffers are arrays."""
+    return count if isinstance(count, int) else int(count.buffer[count.index]) * count.times
+
+
+def check_count(signature: Signature, count: int) -> int:
+    """The count, if it is one that every device can run; raises ``DeviceError``."""
     if not 0 <= count < 2**31:
         raise DeviceError(f"kernel {signature.name} cannot run {count} lanes", hint="0 to 2^31 - 1 can be run at once")
+    return count
 
 
 def check_array(signature: Signature, buffer: Buffer, array: object) -> Array:

@@ -9,7 +9,7 @@ from zeroset.errors import DeviceError, KernelError
 from zeroset.kernel import interp
 from zeroset.kernel.build import Kernel
 from zeroset.kernel.verify import verify
-from zeroset.runtime.device import HostMemory, Signature, check_array, check_count
+from zeroset.runtime.device import Counted, HostMemory, Signature, check_array, check_count, lanes_of
 
 
 class InterpreterProgram:
@@ -19,13 +19,13 @@ class InterpreterProgram:
         self._kernel = kernel
         self.signature = Signature.of(kernel)
 
-    def run(self, count: int, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
+    def run(self, count: int | Counted, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
         """Run ``count`` lanes; see ``Program.run``."""
-        check_count(self.signature, count)
+        lanes = check_count(self.signature, lanes_of(count))
         for buffer in self.signature.buffers:
             check_array(self.signature, buffer, buffers.get(buffer.name))
         try:
-            interp.run(self._kernel, count, uniforms, buffers)
+            interp.run(self._kernel, lanes, uniforms, buffers)
         except (KernelError, TypeError, ValueError, OverflowError) as error:
             raise DeviceError(str(error)) from error
 

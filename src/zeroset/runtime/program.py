@@ -17,7 +17,7 @@ from typing import Any
 
 from zeroset.codegen.slots import slot_layout
 from zeroset.errors import DeviceError
-from zeroset.runtime.device import Array, Signature, check_array, check_count
+from zeroset.runtime.device import Array, Counted, Signature, check_array, check_count, lanes_of
 from zeroset.runtime.pool import Pool
 
 _LOOK_UP = 0.005
@@ -60,9 +60,9 @@ class CpuProgram:
         self._seconds_per_packet = 0.0
         self._stride = 1
 
-    def run(self, count: int, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
+    def run(self, count: int | Counted, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
         """Run ``count`` lanes; see ``Program.run``."""
-        check_count(self.signature, count)
+        lanes = check_count(self.signature, lanes_of(count))
         with self._busy:
             self._bind(buffers)
             try:
@@ -70,8 +70,8 @@ class CpuProgram:
                 self._layout.pack_into(self._slots, 0, *self._addresses, *values)
             except (KeyError, struct.error, OverflowError, TypeError, ValueError) as error:
                 raise self._bad_uniform(uniforms) from error
-            if count:
-                self._dispatch(count)
+            if lanes:
+                self._dispatch(lanes)
 
     def _bind(self, buffers: Mapping[str, Any]) -> None:
         wanted = self.signature.buffers

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from functools import lru_cache
 from importlib.util import find_spec
@@ -22,18 +23,29 @@ def _interp() -> Device:
     return InterpreterDevice()
 
 
-DEVICES: dict[str, Callable[[], Device]] = {"cpu": _cpu, "interp": _interp}
+def _gpu() -> Device:
+    from zeroset.runtime.gpu import GpuDevice
+
+    return GpuDevice()
+
+
+DEVICES: dict[str, Callable[[], Device]] = {"cpu": _cpu, "gpu": _gpu, "interp": _interp}
 """What makes each device that can be asked for by name."""
+
+
+_made: dict[str, Device] = {}
+_making = threading.Lock()
 
 
 def get_device(device: str | Device = "auto") -> Device:
     """A device by name; a Device as it is.
 
     Args:
-        device: ``"cpu"``, ``"interp"``, ``"auto"`` (the fastest here), or a Device of the caller's own.
+        device: ``"cpu"``, ``"gpu"``, ``"interp"``, ``"auto"`` (a GPU where there is one, else the CPU), or a Device of
+            the caller's own. A GPU that was lost is opened anew.
 
     Raises:
-        DeviceError: there is none of that name.
+        DeviceError: there is none of that name, or it is missing something; the text says what.
 
     Example:
         >>> get_device("interp").name
@@ -41,15 +53,48 @@ def get_device(device: str | Device = "auto") -> Device:
     """
     if not isinstance(device, str):
         return device
-    if device == "auto":
-        return _made("cpu" if find_spec("llvmlite") is not None else "interp")
-    return _made(device)
+    if device != "auto":
+        return _device(device)
+    try:
+        return _device(_best())
+    except DeviceError:
+        # A GPU that was there when it was looked for, and is not any more.
+        return _device("cpu")
 
 
-@lru_cache(maxsize=len(DEVICES))
-def _made(name: str) -> Device:
+def why_not_gpu() -> str:
+    """Why ``"auto"`` is not a GPU here; empty where it is one."""
+    from zeroset.runtime.gpu.adapter import choose, likely, wanted
+
+    if not likely():
+        return "no sign of a GPU on this machine"
+    try:
+        found = choose()
+    except DeviceError as error:
+        return error.message
+    if found.software and not wanted():
+        return f"{found.name} calculates on the CPU, which zeroset does faster itself"
+    try:
+        _device("gpu")
+    except DeviceError as error:
+        return error.message
+    return ""
+
+
+@lru_cache(maxsize=1)
+def _best() -> str:
+    if not why_not_gpu():
+        return "gpu"
+    return "cpu" if find_spec("llvmlite") is not None else "interp"
+
+
+def _device(name: str) -> Device:
     make = DEVICES.get(name)
     if make is None:
         known = f"there are {', '.join(sorted(DEVICES))}, and auto for the fastest"
         raise DeviceError(f"there is no device {name!r}", hints=(*did_you_mean(name, DEVICES), known))
-    return make()
+    with _making:
+        known_device = _made.get(name)
+        if known_device is None or getattr(known_device, "lost", False):
+            known_device = _made[name] = make()
+    return known_device

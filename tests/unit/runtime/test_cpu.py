@@ -13,9 +13,9 @@ import pytest
 
 from zeroset.errors import DeviceError
 from zeroset.kernel import BOOL, F32, F64, I32, U32, Kernel, KernelBuilder, atomic, load, store, while_
-from zeroset.runtime import Device, cpu, image
+from zeroset.runtime import Device, cpu, image, programs
 from zeroset.runtime.cache import Cache
-from zeroset.runtime.cpu import CpuDevice
+from zeroset.runtime.cpu import CpuDevice, host
 
 
 def scale() -> Kernel:
@@ -70,7 +70,7 @@ def test_uniforms_and_buffers_may_change_each_time(device: CpuDevice) -> None:
 
 def test_a_run_compiles_and_keeps_nothing(device: CpuDevice, monkeypatch: pytest.MonkeyPatch) -> None:
     program, data = device.compile(scale()), arrays(64)
-    monkeypatch.setattr(CpuDevice, "_obtain", None)
+    monkeypatch.setattr(CpuDevice, "_translate", None)
     assert device.compile(scale()) is program
     for n in range(50):
         device.compile(scale()).run(64, {**UNIFORMS, "n": n}, data)
@@ -184,7 +184,7 @@ def test_a_file_that_is_gone_or_damaged_is_made_anew(tmp_path: Path, suffix: str
 
 
 def test_other_targets_and_sources_have_other_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    targets = cpu.host()
+    targets = host()
     for target in (*targets, targets[0].uncontracted()):
         CpuDevice(target, threads=1, cache=Cache(tmp_path)).compile(scale())
     assert len(list(tmp_path.glob("*.program"))) == len(targets) + 1
@@ -199,7 +199,7 @@ def test_a_warm_start_neither_traces_nor_loads_llvm(tmp_path: Path) -> None:
 import sys, numpy as np
 from pathlib import Path
 from zeroset.runtime.cache import Cache
-from zeroset.runtime.cpu import CpuDevice
+from zeroset.runtime.cpu import CpuDevice, host
 def build():
     assert sys.argv[1] == "cold", "the kernel was traced"
     from zeroset.kernel import F32, KernelBuilder, load, store
@@ -247,10 +247,10 @@ def test_llvm_that_cannot_be_loaded(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_old_programs_are_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cpu, "_IN_MEMORY", 2)
+    monkeypatch.setattr(programs, "_IN_MEMORY", 2)
     device = CpuDevice(threads=1, cache=Cache(None))
     for n in range(4):
         with KernelBuilder(f"k{n}") as k:
             store(k.buffer("x", F32, writable=True), k.index(), 1.0)
         device.compile(k.kernel)
-    assert len(device._programs) == 2
+    assert len(device._programs._made) == 2

@@ -1,13 +1,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from tests.gpus import no_gpu
 
 from zeroset.errors import DeviceError
 from zeroset.kernel import F32, F64, Kernel, KernelBuilder, load, store
-from zeroset.runtime import DEVICES, Device, Signature, get_device
+from zeroset.runtime import DEVICES, Device, Signature, get_device, registry
 from zeroset.runtime.interp import InterpreterDevice
 
 
@@ -21,6 +23,8 @@ def double() -> Kernel:
 @pytest.mark.parametrize("name", DEVICES)
 def test_each_device_by_name(name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: object) -> None:
     monkeypatch.setenv("ZEROSET_CACHE_DIR", str(tmp_path))
+    if name == "gpu" and (why := no_gpu()):
+        pytest.skip(why)
     device = get_device(name)
     assert device.name == name
     assert isinstance(device, Device)
@@ -34,11 +38,34 @@ def test_each_device_by_name(name: str, monkeypatch: pytest.MonkeyPatch, tmp_pat
     assert device.read(x).tolist() == [4, 8, 6]
 
 
-def test_auto_is_the_fastest_that_is_here(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def looked_up_anew() -> Iterator[None]:
+    registry._best.cache_clear()
+    yield
+    registry._best.cache_clear()
+
+
+@pytest.mark.usefixtures("looked_up_anew")
+def test_auto_is_the_cpu_where_there_is_no_gpu(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "why_not_gpu", lambda: "none here")
     assert get_device("auto") is get_device("cpu")
     assert get_device() is get_device("cpu")
-    monkeypatch.setattr("zeroset.runtime.registry.find_spec", lambda name: None)
+    registry._best.cache_clear()
+    monkeypatch.setattr(registry, "find_spec", lambda name: None)
     assert get_device("auto").name == "interp"
+
+
+@pytest.mark.usefixtures("looked_up_anew")
+def test_auto_falls_back_to_the_cpu_when_the_gpu_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    def gone() -> Device:
+        raise DeviceError("it was taken away")
+
+    monkeypatch.setattr(registry, "why_not_gpu", lambda: "")
+    monkeypatch.setitem(DEVICES, "gpu", gone)
+    monkeypatch.setattr(registry, "_made", {"cpu": get_device("cpu")})
+    assert get_device("auto").name == "cpu"
+    with pytest.raises(DeviceError, match="taken away"):
+        get_device("gpu")
 
 
 def test_a_device_that_is_not_there() -> None:
