@@ -1,4 +1,4 @@
-"""The gallery held to Arb at length: ``python -m tests.truth [-n RAYS] [NAME ...]`` from the repository's root."""
+"""The gallery held to Arb at length: ``python -m tests.truth [-n RAYS] [-d DEVICE] [NAME ...]`` from the repository's root."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ def main() -> int:
     """Print a row for each surface and every broken promise; 1 where there is one."""
     options = argparse.ArgumentParser(prog="python -m tests.truth", description=__doc__)
     options.add_argument("-n", type=int, default=512, help="rays a surface")
+    options.add_argument("-d", default="cpu", help="device")
     options.add_argument("names", nargs="*", help="surfaces; all by default")
     chosen = options.parse_args()
     broken = rays = unsettled = 0
@@ -29,7 +30,7 @@ def main() -> int:
         kinds = Counter(v.root.kind.name.lower() if v.root else "none" for v in trial.verdicts)
         print(f"{name}: {dict(kinds)}, unsettled {len(trial.unsettled)}, judged in {judged - began:.1f} s")
         for label, method in proving_methods(trial.surface).items():
-            account = trial.hold(method)
+            account = trial.hold(method, chosen.d)
             broken += len(account.broken)
             found = account.statuses + Counter({"false alarm": account.false_alarms, "open hit": account.open_hits})
             totals.setdefault(label, Counter()).update(found + Counter({"broken": len(account.broken)}))

@@ -94,9 +94,9 @@ class Trial:
         """Rays on which Arb left something open."""
         return [i for i, verdict in enumerate(self.verdicts) if not verdict.settled]
 
-    def hold(self, method: str | Method) -> Account:
+    def hold(self, method: str | Method, device: str = "cpu") -> Account:
         """Cast all rays with a method and hold each answer to its verdict."""
-        hits = zs.cast(self.surface, self.origins, self.directions, method=method, device="cpu")
+        hits = zs.cast(self.surface, self.origins, self.directions, method=method, device=device)
         return held(self.verdicts, hits, self.origins, self.directions)
 
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 import pytest
+from tests.gpus import needs_gpu
 
 import zeroset as zs
 
@@ -42,6 +43,21 @@ def test_every_answer_is_true(name: str, method: str, report: Report) -> None:
     assert not account.broken, "\n".join(account.broken)
     assert account.false_alarms <= FALSE_ALARMS * len(rays.verdicts)
     assert account.statuses["hit"] > 0
+
+
+@needs_gpu
+@pytest.mark.parametrize(("name", "number"), [(name, i) for i, name in enumerate(zs.gallery)])
+def test_every_answer_of_a_gpu_is_true(name: str, number: int, report: Report) -> None:
+    """The default method, and one of the others in turn: every method meets several surfaces."""
+    rays = trial(name)
+    methods = proving_methods(rays.surface)
+    others = [label for label in methods if label != "auto"]
+    for method in ("auto", others[number % len(others)]):
+        account = rays.hold(methods[method], "gpu")
+        report.held(f"{method} on gpu", account)
+        assert not account.broken, f"{method}:\n" + "\n".join(account.broken)
+        assert account.false_alarms <= FALSE_ALARMS * len(rays.verdicts)
+        assert account.statuses["hit"] > 0
 
 
 @pytest.mark.parametrize("name", list(zs.gallery))

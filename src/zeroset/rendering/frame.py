@@ -22,7 +22,7 @@ from zeroset.kernel.types import U32
 from zeroset.rendering.buffers import COUNTERS, FIELDS, PICTURE
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.tracer import Tracer
-from zeroset.runtime import Device, Program
+from zeroset.runtime import Device
 from zeroset.scene.bounds import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
@@ -77,13 +77,21 @@ class GBuffer:
 class Frame:
     """The programs and buffers of one structure."""
 
-    def __init__(self, surface: Surface, method: Method, lights: int, layout: Layout, device: Device) -> None:
+    def __init__(
+        self, surface: Surface, method: Method, lights: int, layout: Layout, device: Device, draft: bool = False
+    ) -> None:
+        def shader() -> Kernel:
+            from zeroset.rendering.shade import shade_kernel
+
+            return shade_kernel(lights)
+
         self.layout = layout
         self.device = device
         self.lock = threading.Lock()
         self._tracer = Tracer(surface, method, device, pixels=True)
-        self._lights = lights
-        self._tracer.compile(self._shader)
+        self._shader = f"shade {lights}"
+        self._tracer.add(self._shader, shader)
+        self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
         self.picture = device.allocate(U32, layout.width * layout.height)
         """The picture's pixels in rows, for those who show them without reading them."""
@@ -93,18 +101,27 @@ class Frame:
         """Wait until all of the frame's programs are there."""
         self._tracer.settle()
 
-    def _shader(self) -> Program:
-        def build() -> Kernel:
-            from zeroset.rendering.shade import shade_kernel
-
-            return shade_kernel(self._lights)
-
-        return self.device.compile_cached(f"shade {self._lights}", build)
+    def compile(self, draft: bool) -> None:
+        """Begin to compile what is not there yet, or what of it a draft needs."""
+        self._tracer.compile(draft)
 
     def draw(
-        self, surface: Surface, uniforms: Mapping[str, float], thin: bool, progress: Progress | None = None
+        self,
+        surface: Surface,
+        uniforms: Mapping[str, float],
+        thin: bool,
+        progress: Progress | None = None,
+        draft: bool = False,
     ) -> GBuffer:
-        """Run the passes; gives the outputs, which a GPU may still be working on."""
+        """Run the passes; gives the outputs, which a GPU may still be working on.
+
+        Args:
+            surface: of this frame's structure.
+            uniforms: everything that its kernels read.
+            thin: whether to draw thin parts.
+            progress: told the share that is done.
+            draft: leave out second looks and thin parts, which some pixels need and every picture can do without.
+        """
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
             shown.keep()
@@ -118,10 +135,11 @@ class Frame:
                 progress(first / lanes)
             self._tracer.first_look(uniforms, bound, first, min(part, lanes - first))
             self.device.submit()
-        self._tracer.second_look(surface, uniforms, bound)
-        if thin:
+        if not draft:
+            self._tracer.second_look(surface, uniforms, bound)
+        if thin and not draft:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
-        self._shader().run(lanes, uniforms, {**bound, PICTURE: self.picture})
+        self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
         self.device.submit()
         outputs = GBuffer(
             self.layout, self.device, {PICTURE: self.picture} | {name: self._buffers[name] for name in FIELDS}
@@ -138,15 +156,19 @@ KEPT_LANES = 1 << 23
 """Pixels that all kept frames may have together, the last one aside: 48 bytes of memory each."""
 
 
-def frame_for(surface: Surface, method: Method, lights: int, layout: Layout, device: Device) -> Frame:
-    """The frame of a structure, kept from an earlier picture where there was one."""
+def frame_for(
+    surface: Surface, method: Method, lights: int, layout: Layout, device: Device, draft: bool = False
+) -> Frame:
+    """The frame of a structure, kept from an earlier picture where there was one; its programs are being compiled."""
     kind = bounds_kind(surface.bounds)
     structure = Structure(surface.field.digest, method.structure(), kind, lights, layout, id(device))
     with _frames_lock:
         frame = _frames.get(structure)
         if frame is None:
-            frame = Frame(surface, method, lights, layout, device)
+            frame = Frame(surface, method, lights, layout, device, draft)
             _frames[structure] = frame
+        else:
+            frame.compile(draft)
         _frames.move_to_end(structure)
         while len(_frames) > 1 and (len(_frames) > KEPT or sum(f.layout.lanes for f in _frames.values()) > KEPT_LANES):
             _frames.popitem(last=False)

@@ -35,7 +35,11 @@ def write(builder: KernelBuilder, lowered: Lowered, lane: Value, ray: Ray, answe
 
     def at_hit() -> tuple[Value, ...]:
         point = [answer.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
-        return tuple(n.convert(F32) for n in gradient_at(lowered, point))
+        normal = gradient_at(lowered, point)
+        # Beside an edge the gradient is mostly rounding; the side that the ray comes from has been proven.
+        along = sum((n * d for n, d in zip(normal, ray.direction, strict=True)), start=lift(0.0, lowered.type))
+        wrong = along * answer.side > 0.0
+        return tuple(wrong.select(-n, n).convert(F32) for n in normal)
 
     def nowhere() -> tuple[float, ...]:
         return (0.0, 0.0, 0.0)

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
+from zeroset.rendering.bands import Assembled
 from zeroset.rendering.buffers import NORMAL
 from zeroset.rendering.frame import GBuffer
 from zeroset.solve.status import MISS, UNRESOLVED
@@ -84,7 +85,7 @@ class Image:
         np.uint32(1)
     """
 
-    def __init__(self, size: tuple[int, int], outputs: GBuffer, certified: bool) -> None:
+    def __init__(self, size: tuple[int, int], outputs: GBuffer | Assembled, certified: bool) -> None:
         self.size = size
         self.certified = certified
         self._outputs = outputs

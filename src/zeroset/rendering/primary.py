@@ -24,6 +24,8 @@ from zeroset.solve.status import MISS
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
+FINER = 2.0**-12
+"""Tolerance of a second look as a part of the first one's."""
 EMPTY_TILE = 1e30
 """Start of the rays of a tile that its beam has shown to be empty: beyond every bounds."""
 
@@ -92,7 +94,8 @@ def second_kernel(field: Field, offset: bool, kind: str, pixels: bool) -> Kernel
         # A little earlier than where the first look got stuck, to learn the sign that f has there.
         earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
         start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
-        problem = Problem(lowered, exact, start, end, tolerance, tolerance * 4.0)
+        # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
+        problem = Problem(lowered, exact, start, end, tolerance * FINER, tolerance * 4.0)
         answer = search(problem, automatic_system(field, problem.fmt), Striding())
         # Even where it stays unresolved, f64 comes closer to a double root than f32 could see.
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps

@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from zeroset.errors import ParameterError, ZerosetError
-from zeroset.rendering.frame import Progress, frame_for
+from zeroset.rendering.bands import Assembled, bands, fits
+from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import shading_uniforms
@@ -44,6 +45,7 @@ def render(
     lights: Sequence[Light] | None = None,
     background: Color | None = None,
     thin: bool = True,
+    draft: bool = False,
     progress: Progress | None = None,
 ) -> Image:
     """Draw a surface.
@@ -60,6 +62,7 @@ def render(
         background: linear RGB.
         thin: also draw what is thinner than a pixel and lies between the rays, down to lines and points without any
             thickness, as UNRESOLVED; certified methods only.
+        draft: leave out thin parts, and second looks at what f32 left unresolved: the picture of a window that moves.
         progress: called now and then with the share that is done, from 0 to 1.
 
     Returns:
@@ -87,15 +90,31 @@ def render(
     chosen.check(shown.field)
     shown.check_work()
     target = get_device(device)
+    whole = fits(layout, target)
     # First the frame: its kernels are compiled while the bounds are being fitted.
-    frame = frame_for(shown, chosen, len(lit), layout, target)
+    frame = frame_for(shown, chosen, len(lit), layout, target, draft) if whole else None
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
     uniforms |= shading_uniforms(scene.material, lit, scene.background, rays)
-    with frame.lock:
-        outputs = frame.draw(shown, uniforms, thin, progress)
+    outputs: GBuffer | Assembled
+    if frame is not None:
+        with frame.lock:
+            outputs = frame.draw(shown, uniforms, thin, progress, draft)
+    else:
+        outputs = Assembled(layout)
+        parts = tuple(bands(layout, target))
+        for i, band in enumerate(parts):
+            own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
+            part = frame_for(shown, chosen, len(lit), band.layout, target, draft)
+            with part.lock:
+                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft))
     return Image((layout.width, layout.height), outputs, chosen.certified)
+
+
+def _share(progress: Progress | None, part: int, parts: int) -> Progress | None:
+    """The progress of one part as progress of the whole."""
+    return None if progress is None else lambda done: progress((part + done) / parts)
 
 
 def _layout(size: tuple[int, int] | int) -> Layout:

@@ -21,7 +21,9 @@ from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
 Buffers = Mapping[str, Any]
-ORDER = ("beams", "first", "thin", "second")
+DRAFT = ("beams", "first")
+"""The passes of a draft, which leaves out second looks and thin parts."""
+ORDER = (*DRAFT, "thin", "second")
 """Passes in the order in which their programs are made: the second look, which a picture often needs not, at last."""
 
 
@@ -42,9 +44,10 @@ class Tracer:
         self._arrays = Arrays(device)
         self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels}"
         self._builders = self._kernels(surface, pixels)
+        self._shared: dict[str, Callable[[], Kernel]] = {}
         self._programs: dict[str, Program] = {}
         self._coming: dict[str, Future[Program]] = {}
-        self._others: list[Future[object]] = []
+        self._begun: set[str] = set()
 
     def _kernels(self, surface: Surface, pixels: bool) -> dict[str, Callable[[], Kernel]]:
         field, kind, method = surface.field, bounds_kind(surface.bounds), self._method
@@ -93,26 +96,37 @@ class Tracer:
         return known
 
     def _compiled(self, name: str) -> Program:
+        if name in self._shared:
+            return self._device.compile_cached(name, self._shared[name])
         return self._device.compile_cached(f"{name} {self._key}", self._builders[name])
 
-    def compile(self, *others: Callable[[], object]) -> None:
-        """Begin to compile the passes, and what else is needed; ``program`` waits for the one that it is asked for.
+    def add(self, name: str, build: Callable[[], Kernel]) -> None:
+        """Have another program made along with the passes' own, under its name alone: every structure shares it."""
+        self._shared[name] = build
+
+    def compile(self, draft: bool = False) -> None:
+        """Begin to compile what is not there yet; ``program`` waits for the one that it is asked for.
 
         Two at a time: while LLVM works on one kernel, outside Python's lock, the next one is traced.
+
+        Args:
+            draft: only what a draft needs.
         """
+        passes = [name for name in (DRAFT if draft else ORDER) if name in self._builders]
+        wanted = [*passes[:-1], *self._shared, *passes[-1:]]
+        missing = [name for name in wanted if name not in self._begun]
+        if not missing:
+            return
         pool = ThreadPoolExecutor(2)
-        *ahead, last = (name for name in ORDER if name in self._builders)
-        self._coming = {name: pool.submit(self._compiled, name) for name in ahead}
-        self._others = [pool.submit(other) for other in others]
-        self._coming[last] = pool.submit(self._compiled, last)
+        for name in missing:
+            self._begun.add(name)
+            self._coming[name] = pool.submit(self._compiled, name)
         pool.shutdown(wait=False)
 
     def settle(self) -> None:
         """Wait until all that ``compile`` began is there."""
         for name in tuple(self._coming):
             self.program(name)
-        for other in self._others:
-            other.result()
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles."""

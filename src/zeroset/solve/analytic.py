@@ -48,7 +48,8 @@ class Analytic(Method):
         system = AffineSystem(problem.fmt, symbols=1)
         rest = search(problem, system, Striding(), ~closed.proven)
         status = closed.proven.select(closed.status, rest.status)
-        return Answer(closed.proven.select(closed.t, rest.t), status, rest.steps + 1, rest.clear)
+        t, side = (closed.proven.select(a, b) for a, b in ((closed.t, rest.t), (closed.side, rest.side)))
+        return Answer(t, status, rest.steps + 1, rest.clear, side)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +57,7 @@ class _Closed:
     proven: Value
     status: Value
     t: Value
+    side: Value
 
 
 def closed_form(problem: Problem, degree: int) -> _Closed:
@@ -71,14 +73,15 @@ def closed_form(problem: Problem, degree: int) -> _Closed:
     after = (first + reach).minimum(1.0)
     clear = _magnitude(factored, before) > factored.residual
     left, right = factored.over(SYSTEM.exact(before)), factored.over(SYSTEM.exact(after))
-    crosses = _opposite(left, right, factored.residual)
+    side = _side(left, right, factored.residual)
+    crosses = side.ne(0.0)
     inside = before > -1.0
     hit = ~none & inside & clear & crosses & (first + reach <= 1.0)
     miss = none & clear
     t = first.fma(polynomial.half, polynomial.middle)
     empty = ~(problem.t1 > problem.t0)
     status = hit.select(constant(HIT, U32), MISS)
-    return _Closed(hit | miss | empty, (~empty).select(status, MISS), t)
+    return _Closed(hit | miss | empty, (~empty).select(status, MISS), t, side)
 
 
 def _first_candidate(factored: Factored) -> Value:
@@ -100,10 +103,11 @@ def _magnitude(factored: Factored, end: Value) -> Value:
     return low.maximum(-high).maximum(0.0)
 
 
-def _opposite(left: object, right: object, residual: Value) -> Value:
-    """Whether the polynomial has certain, opposite signs where the product has these ranges."""
+def _side(left: object, right: object, residual: Value) -> Value:
+    """The polynomial's sign on the left where it certainly has the other one on the right, given the product's ranges;
+    else 0."""
     l0, l1 = as_value(left.lo), as_value(left.hi)  # type: ignore[attr-defined]
     r0, r1 = as_value(right.lo), as_value(right.hi)  # type: ignore[attr-defined]
     up = (l1 < -residual) & (r0 > residual)
     down = (l0 > residual) & (r1 < -residual)
-    return up | down
+    return down.select(1.0, up.select(constant(-1.0, residual.type), 0.0))

@@ -12,16 +12,14 @@ to Steiner's axes, which have no thickness at all (SN10 figure 6, K09 figure 6).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.arith import Dual, DualSystem
-from zeroset.kernel import BOOL, U32, Value, constant, if_, while_
+from zeroset.kernel import BOOL, U32, Value, constant, for_, if_, while_
 from zeroset.solve.field import Lowered
 
 
-@dataclass(frozen=True, slots=True)
-class Beam:
+class Beam(NamedTuple):
     """Where a tile's rays may start: t, a first step, and whether nothing is hit at all."""
 
     start: Value
@@ -30,8 +28,7 @@ class Beam:
     steps: Value
 
 
-@dataclass(frozen=True, slots=True)
-class Patch:
+class Patch(NamedTuple):
     """The rays through a patch of the frame.
 
     Attributes:
@@ -90,8 +87,7 @@ PATIENCE = 200
 """Evaluations that the search for a thin part may cost a pixel."""
 
 
-@dataclass(frozen=True, slots=True)
-class Thin:
+class Thin(NamedTuple):
     """Whether a pixel may hold a thin part of the surface, at which t, and the evaluations spent."""
 
     found: Value
@@ -124,15 +120,26 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value)
 
 
 def _flat_across(patch: Patch, t: Any) -> Value:
-    """Whether both derivatives of f across the pixel may vanish at this t."""
-    dual = DualSystem(patch.system, 2)
+    """Whether both derivatives of f across the pixel may vanish at this t.
+
+    They are the same code for u and for v, so it is there once and runs twice: a formula's derivative is most of the
+    kernel, and the time to compile grows with the text.
+    """
+    (flat,) = for_(2, lambda symbol, so_far: so_far & _may_vanish(patch, t, symbol), constant(True, BOOL))
+    return flat
+
+
+def _may_vanish(patch: Patch, t: Any, symbol: Value) -> Value:
+    """Whether the derivative of f along one symbol of the patch, 0 or 1, may vanish at this t."""
+    dual = DualSystem(patch.system, 1)
 
     def across(base: Any) -> Any:
         # Affine in u and v: the form's own terms are its derivatives, scaled to the pixel.
-        slopes = (None if isinstance(u, float) else patch.system.exact(u) for u in base.terms[:2])
-        return Dual(dual, base, tuple(slopes))
+        along_u, along_v = base.terms[:2]
+        if isinstance(along_u, float) and isinstance(along_v, float):
+            return Dual(dual, base, (None,))
+        return Dual(dual, base, (patch.system.exact(symbol.eq(0).select(along_u, along_v)),))
 
     moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
-    f = patch.lowered.evaluate(dual, *moved)
-    flat: Value = f.derivative(0).contains_zero() & f.derivative(1).contains_zero()
-    return flat
+    vanishes: Value = patch.lowered.evaluate(dual, *moved).derivative(0).contains_zero()
+    return vanishes

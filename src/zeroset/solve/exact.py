@@ -59,7 +59,7 @@ class MitchellExact(Method):
         answer = isolate(inner, pieces)
         t, clear = (e.fma(polynomial.half, polynomial.middle) for e in (answer.t, answer.clear))
         # Back from e to t rounds: a hair earlier is certainly clear.
-        return Answer(t, answer.status, answer.steps, clear - problem.tolerance)
+        return Answer(t, answer.status, answer.steps, clear - problem.tolerance, answer.side)
 
 
 class _Extension:

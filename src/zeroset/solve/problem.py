@@ -65,9 +65,11 @@ class Answer:
         status: MISS, HIT or UNRESOLVED, u32.
         steps: evaluations spent, u32.
         clear: of a certified method that found something: there is certainly no root between the start and here.
+        side: the certain sign of f where the ray comes from, just before t; 0 where it is not known.
     """
 
     t: Value
     status: Value
     steps: Value
     clear: Value
+    side: Value

@@ -118,11 +118,11 @@ def search(
     def turn(*state: Value) -> State:
         found, place, zone = _turn(problem, system, walk, delta, state[:n], _Zone(*state[n + 1 : n + 5]))
         over = found.status.ne(MISS) | walk.ended(problem, place)
-        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, found.start
+        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, found.start, found.side
 
-    begin = (constant(MISS, U32), problem.t0, none, problem.t0)
+    begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0))
     state = while_(running, turn, *first, alive, *zone.components(), *begin)
-    return Answer(state[n + 6], state[n + 5], state[n + 7], state[n + 8])
+    return Answer(state[n + 6], state[n + 5], state[n + 7], state[n + 8], state[n + 9])
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +130,7 @@ class _Found:
     status: Value
     t: Value
     start: Value
+    side: Value
 
 
 def _turn(
@@ -174,4 +175,6 @@ def _turn(
         joins.select(start, zone.start),
         joins.select(whole, zone.whole),
     )
-    return _Found(status, (start + end) * 0.5, start), moved, after
+    # What closes a zone lies behind it; the sign before it was learnt earlier.
+    side = closes.select(zone.sign, proven.select(seen.before, sign))
+    return _Found(status, (start + end) * 0.5, start, side), moved, after

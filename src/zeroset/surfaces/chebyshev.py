@@ -21,7 +21,7 @@ MOST_ORDER = 512
 """The formula language evaluates T(n, x) up to this order."""
 
 _EVEN_EYE = (3.475, -4.739, 2.401)
-_ODD_EYE = (4.489, 3.591, 2.693)
+_ODD_EYE = (4.86, 3.89, 2.92)
 
 
 def chmutov_of_order(order: int) -> GalleryEntry:
