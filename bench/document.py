@@ -1,7 +1,8 @@
 """Measures everything anew and puts the tables into docs/benchmarks.md: python bench/document.py FOLDER [PART...]
 
 Each table stands between two comments that name its part. FOLDER takes the peers' pictures; PARTs, where given, are the
-only ones that are measured. A quiet machine is half of the work: nothing else should run meanwhile.
+only ones that are measured. A quiet machine is half of the work: nothing else should run meanwhile. The parts of a GPU
+are measured only when they are named.
 """
 
 from __future__ import annotations
@@ -19,6 +20,16 @@ sys.path.insert(0, str(ROOT / "src"))
 from zeroset.bench.cold import START, environment  # noqa: E402
 
 ZEROSET = (sys.executable, "-c", START, "bench", "--markdown")
+GPU = (*ZEROSET, "--device", "gpu")
+SOFTWARE = ("sphere", "tangle", "barth-sextic", "barth-decic", "chmutov-14", "blobby")
+GPU_PARTS = {
+    "gpu": (*GPU,),
+    "papers": (*GPU, "--papers"),
+    "passes": (*GPU, "--passes", "sphere", "barth-sextic", "barth-decic", "blobby"),
+    "gpu-memory": (*GPU, "--memory", "--frames", "10000", "--size", "64"),
+    "software-vulkan": (*GPU, "--size", "512", *SOFTWARE),
+}
+"""For the machine with the GPU; the last one for one without, whose ``gpu`` is Mesa's driver in software."""
 PARTS = {
     "gallery": (*ZEROSET,),
     "one-thread": (*ZEROSET, "--threads", "1", "--size", "1024", "barth-sextic", "barth-decic", "chmutov-14"),
@@ -32,13 +43,16 @@ def main() -> int:
     """Measure and write."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("folder", type=Path, help="where the peers' scenes and pictures are left")
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}; default all")
+    parser.add_argument(
+        "parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)} (the default), {', '.join(GPU_PARTS)}"
+    )
     options = parser.parse_args()
-    if unknown := set(options.parts) - set(PARTS):
+    known = PARTS | GPU_PARTS
+    if unknown := set(options.parts) - set(known):
         parser.error(f"there is no part {', '.join(sorted(unknown))}")
     for part in options.parts or PARTS:
         print(f"measuring: {part}", file=sys.stderr)
-        line = [*PARTS[part], *([str(options.folder.resolve())] if part == "peers" else [])]
+        line = [*known[part], *([str(options.folder.resolve())] if part == "peers" else [])]
         done = subprocess.run(line, env=environment(), stdout=subprocess.PIPE, text=True, check=True)
         _replace(part, done.stdout)
     return 0

@@ -1,4 +1,4 @@
-"""The gallery held to Arb at length: ``python -m tests.truth [-n RAYS] [-d DEVICE] [NAME ...]`` from the repository's root."""
+"""The gallery held to Arb at length: ``python -m tests.truth [-n RAYS] [-d DEVICE] [NAME ...]`` from the root."""
 
 from __future__ import annotations
 

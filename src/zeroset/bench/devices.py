@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from zeroset.runtime import Device, get_device
 from zeroset.runtime.cache import Cache
+
+if TYPE_CHECKING:
+    from zeroset.runtime.gpu import GpuDevice
 
 
 class Devices:
     """Devices of one kind.
 
-    Only the CPU can be had afresh, with a cache of its own; any other device is what it is.
+    The CPU and a GPU can be had afresh, with a cache of their own; any other device is what it is.
 
     Args:
         name: as users write it.
@@ -18,21 +23,34 @@ class Devices:
     Raises:
         DeviceError: there is no such device.
 
+    Attributes:
+        steady: draws frames in steady state.
+        gpu: the same where it is a GPU, else None.
+
     Example:
         >>> Devices("interp", None).fresh(Cache(None)).name
         'interp'
     """
 
     def __init__(self, name: str, threads: int | None) -> None:
-        device = get_device(name)
-        self._known = None if device.name == "cpu" else device
-        self.steady = self._known or self._made(Cache(None), threads)
+        self._known = get_device(name)
+        self.gpu: GpuDevice | None = None
+        if self._known.name == "gpu":
+            self.gpu = self._gpu(Cache(None))
+        self.steady: Device = self.gpu or self._made(Cache(None), threads)
 
     def fresh(self, cache: Cache) -> Device:
         """A device that knows no program, with this cache; on one thread, as compiling is."""
-        return self._known or self._made(cache, 1)
+        return self._gpu(cache) if self.gpu is not None else self._made(cache, 1)
 
     def _made(self, cache: Cache, threads: int | None) -> Device:
         from zeroset.runtime.cpu import CpuDevice
 
-        return CpuDevice(threads=threads, cache=cache)
+        return CpuDevice(threads=threads, cache=cache) if self._known.name == "cpu" else self._known
+
+    def _gpu(self, cache: Cache) -> GpuDevice:
+        """A device on the adapter that was found, whatever ``ZEROSET_GPU`` says by now."""
+        from zeroset.runtime.gpu import GpuDevice
+
+        found = self._known.found if isinstance(self._known, GpuDevice) else None
+        return GpuDevice(found, cache)

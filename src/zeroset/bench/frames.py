@@ -80,7 +80,7 @@ def measure(surface: Surface, sizes: Sequence[int], method: str, devices: Device
     """
     try:
         compiled, loaded = _making(surface, method, devices)
-        frames = tuple(_frame(surface, size, method, devices.steady, seconds) for size in sizes)
+        frames = tuple(frame_cost(surface, size, method, devices.steady, seconds) for size in sizes)
     except ZerosetError as error:
         return SurfaceCost(surface.name, error=str(error).splitlines()[0])
     return SurfaceCost(surface.name, compiled, loaded, frames)
@@ -104,7 +104,8 @@ def _making(surface: Surface, method: str, devices: Devices) -> tuple[float, flo
     return compiled, None if again else loaded
 
 
-def _frame(surface: Surface, size: int, method: str, device: Device, seconds: float) -> FrameCost:
+def frame_cost(surface: Surface, size: int, method: str, device: Device, seconds: float) -> FrameCost:
+    """Measure frames of one size."""
     draw = partial(render, surface, size, method=method, device=device)
     frame, limit = take_turns((draw, limit_action(surface, size, device)), seconds)
     image = draw()

@@ -20,6 +20,8 @@ class Machine:
         lanes: of 32 bits that run in lockstep; 0 where the device does not say.
         cores: that this process may use.
         threads: that a frame is spread over; 0 where the device does not say.
+        gpu: name and driver of the GPU that was measured; empty where it was none.
+        software: whether that is no GPU but a driver that calculates on the CPU.
         system: operating system.
         versions: of zeroset and Python.
         date: when, as YYYY-MM-DD.
@@ -32,17 +34,22 @@ class Machine:
     system: str
     versions: str
     date: str
+    gpu: str = ""
+    software: bool = False
 
     def __str__(self) -> str:
+        gpu = f"{self.gpu}{', NO GPU: software on the CPU' if self.software else ''}; " if self.gpu else ""
         lanes = f", {self.lanes} lanes" if self.lanes else ""
         threads = f", {self.threads} thread{'s' * (self.threads > 1)}" if self.threads else ""
         cores = f"{self.cores} core{'s' * (self.cores > 1)}"
-        return f"{self.cpu}{lanes}, {cores}{threads}; {self.system}; {self.versions}; {self.date}"
+        return f"{gpu}{self.cpu}{lanes}, {cores}{threads}; {self.system}; {self.versions}; {self.date}"
 
 
 def this_machine(device: Device) -> Machine:
     """This machine, as a device sees it."""
-    target = getattr(device, "target", None)
+    found = getattr(device, "found", None)
+    # A GPU's target says nothing of the processor.
+    target = getattr(device, "target", None) if found is None else None
     affinity = getattr(os, "sched_getaffinity", None)
     return Machine(
         cpu=f"{platform.machine()} {target.cpu} ({target.name})" if target is not None else platform.machine(),
@@ -52,4 +59,6 @@ def this_machine(device: Device) -> Machine:
         system=platform.system(),
         versions=f"zeroset {zeroset.__version__}, Python {platform.python_version()}",
         date=datetime.date.today().isoformat(),
+        gpu=found.title if found is not None else "",
+        software=found is not None and found.software,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import sys
 from collections.abc import Callable
@@ -17,6 +18,8 @@ from zeroset.scene.surface import Surface
 
 WARM_UP = 10
 """Frames before the first look at the process's size: those in which Python and the pool of threads settle."""
+IN_FLIGHT = 3
+"""Of so many frames one is looked at; a GPU works on the others without anybody waiting."""
 SWING = 0.05
 """How far parameters move, as a share of themselves."""
 
@@ -31,6 +34,7 @@ class MemoryCost:
         size: pixels along a side.
         moved: names of the parameters that changed from frame to frame, besides the camera.
         growth: megabytes that the process grew by after the warm-up; None where the system does not say.
+        objects: how many more objects wgpu holds after the last frame than after the warm-up; None without a GPU.
         compilations: after the first frame.
     """
 
@@ -39,6 +43,7 @@ class MemoryCost:
     size: int
     moved: tuple[str, ...]
     growth: float | None
+    objects: int | None
     compilations: int
 
 
@@ -56,6 +61,29 @@ def resident() -> float | None:
     return pages * resource.getpagesize() / 2**20
 
 
+@dataclass(frozen=True, slots=True)
+class Holding:
+    """What the process holds at one moment.
+
+    Attributes:
+        resident: megabytes of memory; None where the system does not say.
+        objects: of wgpu's; None without a GPU.
+    """
+
+    resident: float | None
+    objects: int | None
+
+
+def holding(devices: Devices) -> Holding:
+    """What the process holds now, when nothing but what is in use is left."""
+    gc.collect()
+    if devices.gpu is None:
+        return Holding(resident(), None)
+    from zeroset.runtime.gpu.census import live_objects
+
+    return Holding(resident(), live_objects())
+
+
 def measure_memory(
     surface: Surface, frames: int, size: int, method: str, devices: Devices, progress: Callable[[float], None]
 ) -> MemoryCost:
@@ -71,18 +99,30 @@ def measure_memory(
     """
     meter = Meter(devices.steady)
     camera = parse_camera(surface.camera, surface.fitted)
-    before: float | None = None
+    before = Holding(None, None)
     first = 0
     for i in range(frames):
         progress(i / frames)
-        render(_moved(surface, i / frames), size, _turned(camera, i / frames), method, meter)
+        image = render(_moved(surface, i / frames), size, _turned(camera, i / frames), method, meter)
+        if i % IN_FLIGHT == 0 or i == frames - 1:
+            # Looked at, as its user would; and a GPU never has more than a few frames before it.
+            image.pixels  # noqa: B018
+        # A picture that is still held when the next one is drawn would be copied.
+        del image
         if i == 0:
             settle()
             first = meter.compilations
-        before = resident() if i == min(WARM_UP, frames - 1) else before
-    after = resident()
-    growth = None if before is None or after is None else after - before
-    return MemoryCost(surface.name, frames, size, tuple(surface.params), growth, meter.compilations - first)
+        before = holding(devices) if i == min(WARM_UP, frames - 1) else before
+    after = holding(devices)
+    return MemoryCost(
+        surface.name,
+        frames,
+        size,
+        tuple(surface.params),
+        None if before.resident is None or after.resident is None else after.resident - before.resident,
+        None if before.objects is None or after.objects is None else after.objects - before.objects,
+        meter.compilations - first,
+    )
 
 
 def _moved(surface: Surface, share: float) -> Surface:

@@ -5,60 +5,18 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from zeroset.bench.cold import CommandCost
 from zeroset.bench.frames import FrameCost, SurfaceCost
+from zeroset.bench.gpu import GpuCost, PassesCost
+from zeroset.bench.gpu_report import gpu_table, papers_table, passes_table
 from zeroset.bench.machine import Machine
 from zeroset.bench.memory import MemoryCost
+from zeroset.bench.papers import PaperCost
+from zeroset.bench.table import Table
 
-Cost = SurfaceCost | MemoryCost | CommandCost
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """Text in rows and columns.
-
-    Attributes:
-        title: what it shows.
-        columns: their heads.
-        rows: cells, as many as columns in each.
-        notes: lines below it.
-    """
-
-    title: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    notes: tuple[str, ...] = ()
-
-    def markdown(self) -> str:
-        """The table in Markdown; the first column to the left, all others to the right."""
-        lines = [f"**{self.title}**", "", _line(self.columns), _line((":--", *["--:"] * (len(self.columns) - 1)))]
-        lines += [_line(row) for row in self.rows]
-        return "\n".join([*lines, "", *(f"{note}  " for note in self.notes)]).rstrip() + "\n"
-
-    def show(self) -> None:
-        """Print the table on the terminal."""
-        from rich.console import Console
-        from rich.table import Table as Drawn
-
-        drawn = Drawn(title=self.title, title_justify="left")
-        for i, column in enumerate(self.columns):
-            drawn.add_column(column, justify="right" if i else "left", no_wrap=True)
-        for row in self.rows:
-            drawn.add_row(*row)
-        console = Console()
-        # A pipe has no width of its own; a cut table would help nobody there.
-        if not console.is_terminal:
-            console.width = 200
-        console.print(drawn)
-        for note in self.notes:
-            console.print(note, highlight=False, markup=False)
-
-
-def _line(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cells) + " |"
+Cost = SurfaceCost | MemoryCost | CommandCost | GpuCost | PassesCost | PaperCost
 
 
 def table(costs: Sequence[Cost], machine: Machine) -> Table:
@@ -73,6 +31,12 @@ def table(costs: Sequence[Cost], machine: Machine) -> Table:
             return _frames_table([cost for cost in costs if isinstance(cost, SurfaceCost)], machine)
         case MemoryCost():
             return _memory_table([cost for cost in costs if isinstance(cost, MemoryCost)], machine)
+        case GpuCost():
+            return gpu_table([cost for cost in costs if isinstance(cost, GpuCost)], machine)
+        case PassesCost():
+            return passes_table([cost for cost in costs if isinstance(cost, PassesCost)], machine)
+        case PaperCost():
+            return papers_table([cost for cost in costs if isinstance(cost, PaperCost)], machine)
         case CommandCost():
             return _command_table([cost for cost in costs if isinstance(cost, CommandCost)], machine)
 
@@ -107,14 +71,15 @@ def _frame_cells(cost: FrameCost) -> list[str]:
 
 
 def _memory_table(costs: Sequence[MemoryCost], machine: Machine) -> Table:
-    columns = ("surface", "frames", "size", "moving", "growth", "compilations after the first frame")
+    columns = ("surface", "frames", "size", "moving", "growth", "GPU objects", "compilations after the first frame")
     return Table("zeroset bench --memory", columns, tuple(map(_memory_row, costs)), (str(machine),))
 
 
 def _memory_row(cost: MemoryCost) -> tuple[str, ...]:
     growth = "unknown here" if cost.growth is None else f"{cost.growth:+.2f} MB"
     moved = ", ".join(("camera", *cost.moved))
-    return cost.name, str(cost.frames), f"{cost.size}²", moved, growth, str(cost.compilations)
+    objects = "-" if cost.objects is None else f"{cost.objects:+d}"
+    return cost.name, str(cost.frames), f"{cost.size}²", moved, growth, objects, str(cost.compilations)
 
 
 def _command_table(costs: Sequence[CommandCost], machine: Machine) -> Table:
@@ -136,6 +101,9 @@ def to_json(costs: Sequence[Cost], machine: Machine) -> str:
 
 def _plain(cost: Cost) -> dict[str, Any]:
     plain = dataclasses.asdict(cost)
-    if isinstance(cost, SurfaceCost):
+    if isinstance(cost, SurfaceCost | GpuCost):
         plain["frames"] = [dataclasses.asdict(frame) | {"ratio": frame.ratio} for frame in cost.frames]
+    if isinstance(cost, PaperCost):
+        # A table's other rows are said in theirs.
+        del plain["reference"]["table"]["rates"]
     return plain

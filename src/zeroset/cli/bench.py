@@ -1,8 +1,12 @@
-"""``zeroset bench``: how fast this machine draws the gallery, what frames do to memory, how long the command takes."""
+"""``zeroset bench``: how fast this machine draws the gallery, what frames do to memory, how long the command takes.
+
+On a GPU frames are timed by the GPU's own clock and by the wall's, pass by pass where that is wished for.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,6 +20,11 @@ if TYPE_CHECKING:
 
 MEMORY_SURFACE = "tangle"
 COMMAND_SURFACE = "barth-sextic"
+PASSES_SURFACE = "barth-sextic"
+
+
+SIZES = (512, 1024)
+"""Pixels a side where nobody asks for others."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +51,8 @@ class Wish:
 @click.option("--seconds", default=0.5, show_default=True, type=click.FloatRange(0), help="Time for each size.")
 @click.option("--memory", "kind", flag_value="memory", help="Instead: growth and compilations over many frames.")
 @click.option("--cold", "kind", flag_value="cold", help="Instead: the whole command, from formula to PNG.")
+@click.option("--passes", "kind", flag_value="passes", help="Instead: each pass of a frame, by the GPU's own clock.")
+@click.option("--papers", "kind", flag_value="papers", help="Instead: frame rates beside those that papers print.")
 @click.option("--frames", default=1000, show_default=True, type=click.IntRange(1), help="Frames for --memory.")
 @click.option("--runs", default=5, show_default=True, type=click.IntRange(1), help="Processes of each kind for --cold.")
 @click.option("--markdown", is_flag=True, help="Print the table in Markdown.")
@@ -51,14 +62,17 @@ def command(markdown: bool, json_file: str | None, **wish: object) -> None:
     from zeroset.atomic import check_writable, replacing
     from zeroset.bench import report
     from zeroset.bench.devices import Devices
+    from zeroset.bench.drivers import no_driver_caches
     from zeroset.bench.machine import this_machine
     from zeroset.solve import resolve_method
 
     wanted = Wish(**wish)  # type: ignore[arg-type]
     path = None if json_file is None else check_writable(json_file)
     resolve_method(wanted.method)
-    devices = Devices(wanted.device, wanted.threads)
-    costs, interrupted = _collect(wanted, devices)
+    # The whole command is timed as its user has it, drivers' caches included.
+    with nullcontext() if wanted.kind == "cold" else no_driver_caches():
+        devices = Devices(wanted.device, wanted.threads)
+        costs, interrupted = _collect(wanted, devices)
     machine = this_machine(devices.steady)
     if costs:
         table = report.table(costs, machine)
@@ -72,7 +86,8 @@ def command(markdown: bool, json_file: str | None, **wish: object) -> None:
 
 def _collect(wish: Wish, devices: Devices) -> tuple[list[Cost], bool]:
     """What could be measured before it was all done, or before the user interrupted, and whether he did."""
-    measure = {"memory": _memory, "cold": _cold}.get(wish.kind or "", _frames)
+    kinds = {"memory": _memory, "cold": _cold, "passes": _passes, "papers": _papers}
+    measure = kinds.get(wish.kind or "", _frames)
     costs: list[Cost] = []
     with Progress("timing") as progress:
         try:
@@ -84,6 +99,7 @@ def _collect(wish: Wish, devices: Devices) -> tuple[list[Cost], bool]:
 
 def _frames(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
     from zeroset.bench.frames import measure, warm_up
+    from zeroset.bench.gpu import measure_gpu
     from zeroset.shelf import gallery
 
     names = wish.names or tuple(gallery)
@@ -91,7 +107,40 @@ def _frames(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> 
     warm_up(devices, wish.method)
     for i, surface in enumerate(surfaces):
         progress(i / len(surfaces))
-        yield measure(surface, wish.sizes or (512, 1024), wish.method, devices, wish.seconds)
+        sizes = wish.sizes or SIZES
+        if devices.gpu is not None:
+            yield measure_gpu(surface, sizes, wish.method, devices, devices.gpu, wish.seconds)
+        else:
+            yield measure(surface, sizes, wish.method, devices, wish.seconds)
+
+
+def _passes(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
+    from zeroset.bench.gpu import measure_passes
+    from zeroset.errors import DeviceError
+    from zeroset.shelf import gallery
+
+    gpu = devices.gpu
+    if gpu is None:
+        raise DeviceError("only a GPU tells how long each pass takes", hint='use device="gpu"')
+    if gpu.stream.clock is None:
+        raise DeviceError(f"{gpu.found.name} has no clock of its own", hint="without --passes, wall times are measured")
+    for name, part in _parts(wish.names or (PASSES_SURFACE,), progress):
+        for size in wish.sizes or SIZES:
+            part(0.0)
+            yield measure_passes(gallery[name], size, wish.method, gpu, wish.seconds)
+
+
+def _papers(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
+    from zeroset.bench.papers import measure_paper, references
+    from zeroset.errors import ZerosetError
+    from zeroset.shelf import gallery
+
+    if wish.sizes:
+        raise ZerosetError("frames beside a paper's have the paper's size", hint="leave --size out")
+    wanted = tuple(references(wish.names))
+    for i, reference in enumerate(wanted):
+        progress(i / len(wanted))
+        yield measure_paper(reference, gallery.__getitem__, wish.method, devices, wish.seconds)
 
 
 def _memory(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:

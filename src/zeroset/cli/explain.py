@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 import click
 
 from zeroset.cli.source import FormulaCommand, find_scene, read_method, surface_options
-from zeroset.errors import ZerosetError, did_you_mean
+from zeroset.errors import DeviceError, ZerosetError, did_you_mean
 
 if TYPE_CHECKING:
     from zeroset.expr import Expr
     from zeroset.kernel import Kernel
+    from zeroset.runtime.gpu import GpuDevice
     from zeroset.scene.scene import Scene
     from zeroset.scene.surface import Surface
     from zeroset.solve import Method
@@ -29,7 +30,7 @@ TRACED = "traced"
 @click.option("--kernel", metavar="NAME", help="Show one kernel: beams, primary, second, thin or shade.")
 @click.option("--pass", "pass_name", metavar="NAME", help="Show it after this pass ('traced': before the first).")
 @click.option("--passes", is_flag=True, help="Show it after each pass that changes it.")
-@click.option("--target", metavar="CODE", help="Show the code made of it: llvm or asm.")
+@click.option("--target", metavar="CODE", help="Show the code made of it: llvm, asm or wgsl.")
 def command(
     source: str,
     params: tuple[str, ...],
@@ -51,7 +52,7 @@ def command(
         lines: Iterable[str] = operations(scene.surface.field.expr)
     elif kernel or pass_name or passes or target:
         wanted = made[_one_of(kernel or "primary", made, f"kernel of the method {chosen.name}")]()
-        lines = _target_code(wanted, target) if target else _stages(wanted, pass_name, passes)
+        lines = _target_code(wanted, target, device) if target else _stages(wanted, pass_name, passes)
     else:
         lines = (*_formula(scene.surface, chosen), *_short(scene.surface.field.expr), *_counts(made), *_more())
     for line in lines:
@@ -141,7 +142,7 @@ def _counts(made: Mapping[str, Callable[[], Kernel]]) -> Iterator[str]:
 
 
 def _more() -> Iterator[str]:
-    yield "more: --dag, --kernel NAME, --pass NAME, --passes, --target llvm, --target asm"
+    yield "more: --dag, --kernel NAME, --pass NAME, --passes, --target llvm, --target asm, --target wgsl"
 
 
 def _stages(kernel: Kernel, pass_name: str | None, passes: bool) -> Iterator[str]:
@@ -160,13 +161,47 @@ def _stages(kernel: Kernel, pass_name: str | None, passes: bool) -> Iterator[str
         before = stage
 
 
-def _target_code(kernel: Kernel, target: str | None) -> Iterator[str]:
+def _target_code(kernel: Kernel, target: str, device: str) -> Iterator[str]:
+    if _one_of(target, ("llvm", "asm", "wgsl"), "target code") == "wgsl":
+        yield from _shader(kernel, device)
+        return
     from zeroset.codegen import llvm
     from zeroset.codegen.assembly import to_assembly
     from zeroset.kernel.passes import optimise
     from zeroset.runtime.cpu import host
 
-    kind = _one_of(str(target), ("llvm", "asm"), "target code")
     cpu = host()[0]
     code = llvm.to_llvm(optimise(kernel), cpu)
-    yield code if kind == "llvm" else to_assembly(code, cpu)
+    yield code if target == "llvm" else to_assembly(code, cpu)
+
+
+def _shader(kernel: Kernel, device: str) -> Iterator[str]:
+    """WGSL as this machine's GPU gets it; as one without any optional feature gets it where there is none."""
+    from zeroset.codegen.gpu_target import GpuTarget
+    from zeroset.codegen.wgsl import to_wgsl
+    from zeroset.kernel.passes import optimise
+
+    gpu = _gpu(device)
+    target = GpuTarget() if gpu is None else gpu.target
+    flags = ("subgroups", "doubles", "exact_division", "exact_root")
+    has = [flag.replace("_", " ") for flag in flags if getattr(target, flag)]
+    name = "a GPU with the least that zeroset needs" if gpu is None else gpu.found.title
+    yield f"// for {name}: {', '.join(has) or 'nothing optional'}"
+    yield to_wgsl(optimise(kernel), target)
+
+
+def _gpu(device: str) -> GpuDevice | None:
+    """The GPU, where one was asked for by name or may well be there."""
+    from zeroset.runtime import get_device
+    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.adapter import likely
+
+    if device != "gpu" and not likely():
+        return None
+    try:
+        found = get_device("gpu")
+    except DeviceError:
+        if device == "gpu":
+            raise
+        return None
+    return found if isinstance(found, GpuDevice) else None

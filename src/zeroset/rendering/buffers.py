@@ -9,6 +9,10 @@ FIELDS = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32
 """The G-buffer's arrays, one element a ray."""
 SECOND = {"second_lane": U32, "second_clear": F32}
 """Rays left unresolved: which, and from where on."""
+FROM, ONWARD = "from", "onward"
+"""Where the search for a ray's next layer starts, and where the one after it will."""
+NOTHING = -1e30
+"""Where it starts along a ray on which nothing was found yet: before every bounds."""
 THIN = {"block_missed": U32, "thin_block": U32, "thin_pixel": U32}
 """For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not. Then the lists of blocks
 and of pixels that may hold something thinner than a pixel."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,13 +22,15 @@ from zeroset.scene.surface import Surface
 from zeroset.solve import Method, resolve_method
 from zeroset.solve.status import MISS
 
+MOST_HITS = 1024
+"""Hits that one ray may be asked for."""
 FARTHEST = 1e30
 """What stands for an infinite t: kernels know no infinity."""
 
 
 @dataclass(frozen=True)
 class Hits:
-    """What rays found, N of them.
+    """What rays found, N of them; after ``cast(..., max_hits=n)`` each shape has n after N, in order along the ray.
 
     Attributes:
         t: (N,) float32, distance in units of \\|direction\\|; nan where nothing is hit.
@@ -56,8 +59,9 @@ def cast(
     method: str | Method = "auto",
     device: str | Device = "auto",
     tolerance: float | None = None,
+    max_hits: int | None = None,
 ) -> Hits:
-    """Cast rays at a surface and give each one's first hit inside the bounds.
+    """Cast rays at a surface and give each one's first hits inside the bounds.
 
     Args:
         surface: what to hit.
@@ -68,10 +72,15 @@ def cast(
         method: a name or an instance of a method.
         device: where to run.
         tolerance: world length to which roots are found; None takes 2^-14 of the bounds' extent.
+        max_hits: how many hits a ray may have, in order along it; None gives the first one alone. Roots closer to each
+            other than the tolerance are one hit.
+
+    Returns:
+        The hits; with ``max_hits`` each array has a second axis of that length, filled up with misses.
 
     Raises:
         ArrayShapeError: wrong shapes, non-finite numbers, or a direction of length 0.
-        ParameterError: a tolerance, t_min or t_max that cannot be used.
+        ParameterError: a tolerance, t_min, t_max or max_hits that cannot be used.
         MethodError: the method cannot treat this surface.
 
     Example:
@@ -80,7 +89,10 @@ def cast(
         >>> hits = zs.cast(ball, [0, 0, 5], [[0, 0, -1], [0, 1, 0]])
         >>> hits.status.tolist(), bool(abs(hits.t[0] - 4) < 1e-3)
         ([1, 0], True)
+        >>> zs.cast(ball, [0, 0, 5], [[0, 0, -1], [0, 1, 0]], max_hits=3).status.tolist()
+        [[1, 1, 0], [0, 0, 0]]
     """
+    most = _most(max_hits)
     chosen = resolve_method(method)
     shown = as_scene(surface).surface
     chosen.check(shown.field)
@@ -94,12 +106,34 @@ def cast(
         "near": _end(t_min, "t_min"),
         "far": _end(t_max, "t_max"),
     }
-    tracer = Tracer(shown, chosen, target, pixels=False)
+    tracer = Tracer(shown, chosen, target, pixels=False, layered=most is not None)
     buffers = tracer.buffers(len(starts), 0) | _ray_buffers(target, starts, ways)
     bound = tracer.begin(shown, uniforms, buffers, 0)
+    if most is not None:
+        found = tracer.layers(shown, uniforms, bound, len(starts), most)
+        return _in_layers([_hits(target, layer, chosen.certified) for layer in found])
     tracer.first_look(uniforms, bound, 0, len(starts))
     tracer.second_look(shown, uniforms, bound)
     return _hits(target, buffers, chosen.certified)
+
+
+def _most(max_hits: int | None) -> int | None:
+    if max_hits is None:
+        return None
+    try:
+        most = operator.index(max_hits)
+    except TypeError:
+        raise ParameterError(f"max_hits must be a whole number, not {max_hits!r}") from None
+    if not 1 <= most <= MOST_HITS:
+        raise ParameterError(f"max_hits must be from 1 to {MOST_HITS}, not {max_hits!r}")
+    return most
+
+
+def _in_layers(layers: list[Hits]) -> Hits:
+    """Hits of several layers as arrays with a second axis."""
+    names = ("t", "status", "normal", "steps")
+    t, status, normal, steps = (np.stack([getattr(layer, name) for layer in layers], axis=1) for name in names)
+    return Hits(t, status, normal, steps, layers[0].certified)
 
 
 def _end(t: float, what: str) -> float:

@@ -41,7 +41,7 @@ def given_ray(builder: KernelBuilder, lane: Value) -> Ray:
     return Ray(origin, direction)
 
 
-def _problem(
+def problem_on(
     builder: KernelBuilder, lowered: Lowered, kind: str, ray: Ray, near: Value, far: Value, step: Value | None
 ) -> Problem:
     """The search inside the bounds, from near to far; a step of an eighth of the stretch where none is given."""
@@ -72,7 +72,7 @@ def trace_kernel(field: Field, method: Method, kind: str, pixels: bool, beams: b
             tile = tile_of(lane)
             near = load(builder.buffer("tile_start", F32), tile)
             step = load(builder.buffer("tile_step", F32), tile)
-        answer = method.trace(_problem(builder, lowered, kind, ray, near, far, step))
+        answer = method.trace(problem_on(builder, lowered, kind, ray, near, far, step))
         write(builder, lowered, lane, ray, answer)
         if second:
             ask_second_look(builder, lane, answer)
@@ -89,7 +89,7 @@ def second_kernel(field: Field, offset: bool, kind: str, pixels: bool) -> Kernel
         lowered = Lowered(field, builder, F64, offset)
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
-        rough = _problem(builder, lowered, kind, ray, near, far, None)
+        rough = problem_on(builder, lowered, kind, ray, near, far, None)
         exact = Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))
         # A little earlier than where the first look got stuck, to learn the sign that f has there.
         earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)

@@ -93,7 +93,7 @@ def _record(builder: KernelBuilder, at: _Level, lowered: Lowered, lane: Value, t
     def draw() -> None:
         # Several parts of a pixel may come here: they all write the same, which is the pixel's.
         where = load(t, lane)
-        answer = Answer(where, constant(UNRESOLVED, U32), constant(1, U32), where, constant(0.0, F32))
+        answer = Answer(where, constant(UNRESOLVED, U32), constant(1, U32), where, constant(0.0, F32), where)
         write(builder, lowered, lane, camera_ray(builder, lane), answer)
 
     def found() -> None:

@@ -10,9 +10,11 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
+import numpy as np
+
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, SECOND, THIN
+from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, FROM, NOTHING, ONWARD, SECOND, THIN
 from zeroset.rendering.layout import TILE
 from zeroset.rendering.values import Arrays, parameter_uniforms
 from zeroset.runtime import Counted, Device, Program
@@ -33,16 +35,24 @@ class Tracer:
     Attributes:
         certified: whether the method proves its answers; only then are there beams, second looks and thin parts.
         beams: whether tiles of pixels share beams.
+
+    Args:
+        surface: what is traced.
+        method: how.
+        device: where.
+        pixels: whether the rays are a camera's, one a pixel, or a caller's.
+        layered: whether each run of the first look finds what comes behind the last run's finds (``layers``).
     """
 
-    def __init__(self, surface: Surface, method: Method, device: Device, pixels: bool) -> None:
+    def __init__(self, surface: Surface, method: Method, device: Device, pixels: bool, layered: bool = False) -> None:
+        self._layered = layered
         self._method = method
         self._device = device
         self.certified = method.certified
-        self.beams = pixels and method.certified
+        self.beams = pixels and method.certified and not layered
         self._second = method.certified and device.supports(F64)
         self._arrays = Arrays(device)
-        self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels}"
+        self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels} {layered}"
         self._builders = self._kernels(surface, pixels)
         self._shared: dict[str, Callable[[], Kernel]] = {}
         self._programs: dict[str, Program] = {}
@@ -55,11 +65,19 @@ class Tracer:
 
         # Imported where they are traced: a picture whose kernels come from the cache loads no number system at all.
         def first() -> Kernel:
+            if self._layered:
+                from zeroset.rendering.layers import layer_kernel
+
+                return layer_kernel(field, method, kind, pixels, self._second)
             from zeroset.rendering.primary import trace_kernel
 
             return trace_kernel(field, method, kind, pixels, self.beams, self._second)
 
         def second() -> Kernel:
+            if self._layered:
+                from zeroset.rendering.layers import second_layer_kernel
+
+                return second_layer_kernel(field, offset, kind, pixels)
             from zeroset.rendering.primary import second_kernel
 
             return second_kernel(field, offset, kind, pixels)
@@ -128,9 +146,13 @@ class Tracer:
         for name in tuple(self._coming):
             self.program(name)
 
+    def outputs(self, rays: int) -> dict[str, Any]:
+        """Fresh buffers for what is found along so many rays."""
+        return {name: self._device.allocate(type_, rays) for name, type_ in FIELDS.items()}
+
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
-        """Fresh buffers for so many rays and tiles."""
-        wanted = FIELDS | (SECOND if self._second else {})
+        """Fresh buffers for so many rays and tiles, those of the outputs included where there is one layer."""
+        wanted = ({} if self._layered else FIELDS) | (SECOND if self._second else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, 3)
         if self.beams:
@@ -153,6 +175,22 @@ class Tracer:
     def first_look(self, uniforms: Mapping[str, float], bound: Buffers, first: int, count: int) -> None:
         """Trace a run of rays."""
         self.program("first").run(count, {**uniforms, "first": first}, bound)
+
+    def layers(
+        self, surface: Surface, uniforms: Mapping[str, float], bound: Buffers, rays: int, most: int
+    ) -> list[dict[str, Any]]:
+        """What lies behind one another along each ray: the outputs of each layer, the first one first."""
+        here, onward = (self._device.allocate(F32, rays) for _ in range(2))
+        self._device.write(here, np.full(rays, NOTHING, np.float32))
+        found = []
+        for _ in range(most):
+            found.append(self.outputs(rays))
+            self._device.clear(bound[COUNTERS])
+            layer = {**bound, **found[-1], FROM: here, ONWARD: onward}
+            self.program("first").run(rays, uniforms, layer)
+            self.second_look(surface, uniforms, layer)
+            here, onward = onward, here
+        return found
 
     def second_look(self, surface: Surface, uniforms: Mapping[str, float], bound: Buffers) -> None:
         """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so."""

@@ -48,8 +48,9 @@ class Analytic(Method):
         system = AffineSystem(problem.fmt, symbols=1)
         rest = search(problem, system, Striding(), ~closed.proven)
         status = closed.proven.select(closed.status, rest.status)
-        t, side = (closed.proven.select(a, b) for a, b in ((closed.t, rest.t), (closed.side, rest.side)))
-        return Answer(t, status, rest.steps + 1, rest.clear, side)
+        pairs = (closed.t, rest.t), (closed.side, rest.side), (closed.t + problem.tolerance, rest.end)
+        t, side, end = (closed.proven.select(a, b) for a, b in pairs)
+        return Answer(t, status, rest.steps + 1, rest.clear, side, end)
 
 
 @dataclass(frozen=True, slots=True)

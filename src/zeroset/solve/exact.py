@@ -57,9 +57,9 @@ class MitchellExact(Method):
             step=one,
         )
         answer = isolate(inner, pieces)
-        t, clear = (e.fma(polynomial.half, polynomial.middle) for e in (answer.t, answer.clear))
-        # Back from e to t rounds: a hair earlier is certainly clear.
-        return Answer(t, answer.status, answer.steps, clear - problem.tolerance, answer.side)
+        t, clear, end = (e.fma(polynomial.half, polynomial.middle) for e in (answer.t, answer.clear, answer.end))
+        # Back from e to t rounds: a hair earlier, or later, is certainly clear.
+        return Answer(t, answer.status, answer.steps, clear - problem.tolerance, answer.side, end + problem.tolerance)
 
 
 class _Extension:

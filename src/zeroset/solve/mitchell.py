@@ -135,4 +135,4 @@ def isolate(problem: Problem, pieces: Any) -> Answer:
     step = problem.step.minimum(problem.t1 - problem.t0).maximum(tolerance)
     state = while_(running, turn, problem.t0, step, problem.t0, zero, none, problem.t0, outside, none)
     # f runs through a root the way it slopes.
-    return Answer(state[5], state[4], state[7], state[0], -state[3])
+    return Answer(state[5], state[4], state[7], state[0], -state[3], state[5] + tolerance)

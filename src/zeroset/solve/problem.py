@@ -66,6 +66,7 @@ class Answer:
         steps: evaluations spent, u32.
         clear: of a certified method that found something: there is certainly no root between the start and here.
         side: the certain sign of f where the ray comes from, just before t; 0 where it is not known.
+        end: what was found is behind the ray here, and the search for what comes next may go on.
     """
 
     t: Value
@@ -73,3 +74,4 @@ class Answer:
     steps: Value
     clear: Value
     side: Value
+    end: Value

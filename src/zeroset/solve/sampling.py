@@ -100,7 +100,7 @@ class _Marching(Method):
         end = found.select(t + width, t)
         root = refine(samples.value, t, end, f0)
         spent = count + found.select(constant(REFINEMENTS, U32), 0)
-        return Answer(root, found.select(constant(HIT, U32), MISS), spent, t, constant(0.0, t.type))
+        return Answer(root, found.select(constant(HIT, U32), MISS), spent, t, constant(0.0, t.type), end)
 
 
 def formula_steps(field: Field) -> float:

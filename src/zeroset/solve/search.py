@@ -118,19 +118,20 @@ def search(
     def turn(*state: Value) -> State:
         found, place, zone = _turn(problem, system, walk, delta, state[:n], _Zone(*state[n + 1 : n + 5]))
         over = found.status.ne(MISS) | walk.ended(problem, place)
-        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, found.start, found.side
+        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, *found.rest
 
-    begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0))
+    begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0), problem.t0)
     state = while_(running, turn, *first, alive, *zone.components(), *begin)
-    return Answer(state[n + 6], state[n + 5], state[n + 7], state[n + 8], state[n + 9])
+    return Answer(state[n + 6], state[n + 5], *state[n + 7 :])
 
 
 @dataclass(frozen=True, slots=True)
 class _Found:
+    """What a turn found; the rest is where it may begin, the sign before that, and where it ends."""
+
     status: Value
     t: Value
-    start: Value
-    side: Value
+    rest: tuple[Value, Value, Value]
 
 
 def _turn(
@@ -177,4 +178,4 @@ def _turn(
     )
     # What closes a zone lies behind it; the sign before it was learnt earlier.
     side = closes.select(zone.sign, proven.select(seen.before, sign))
-    return _Found(status, (start + end) * 0.5, start, side), moved, after
+    return _Found(status, (start + end) * 0.5, (start, side, end)), moved, after

@@ -6,8 +6,11 @@ import json
 from pathlib import Path
 
 import pytest
+from tests.gpus import needs_gpu
 
 from zeroset.cli import main
+from zeroset.runtime import get_device
+from zeroset.runtime.gpu import GpuDevice
 
 TINY = ("--size", "64", "--seconds", "0", "--threads", "1")
 
@@ -93,6 +96,58 @@ def test_memory(capsys: pytest.CaptureFixture[str]) -> None:
     assert cells["compilations after the first frame"] == "0"
 
 
+@needs_gpu
+def test_memory_on_a_gpu(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", "--memory", "--device", "gpu", "--frames", "14", "--size", "32", "--markdown"]) == 0
+    head, _, row = _cells(capsys.readouterr().out)
+    cells = dict(zip(head, row, strict=True))
+    assert cells["GPU objects"] == "+0"
+    assert cells["compilations after the first frame"] == "0"
+
+
+@needs_gpu
+def test_frames_on_a_gpu(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "figures.json"
+    assert main(["bench", "goursat", "--device", "gpu", *TINY, "--markdown", "--json", str(file)]) == 0
+    head, _, row = _cells(capsys.readouterr().out)
+    assert {"made", "first", "whole", "again", "64² GPU", "in flight", "host", "limit", "ratio", "steps"} < set(head)
+    assert len(row) == len(head)
+    figures = json.loads(file.read_text())
+    assert figures["machine"]["gpu"]
+    (frame,) = figures["results"][0]["frames"]
+    assert frame["hits"] > 100
+    assert 0 < frame["host"]["best"] <= frame["wall"]["best"]
+    if frame["gpu"] is not None:
+        assert frame["ratio"] == pytest.approx(frame["gpu"]["best"] / frame["limit"]["best"])
+
+
+@needs_gpu
+def test_passes_of_a_frame(capsys: pytest.CaptureFixture[str]) -> None:
+    gpu = get_device("gpu")
+    assert isinstance(gpu, GpuDevice)
+    if gpu.stream.clock is None:
+        pytest.skip(f"{gpu.found.name} has no clock")
+    assert main(["bench", "goursat", "--passes", "--device", "gpu", *TINY, "--markdown"]) == 0
+    head, _, row = _cells(capsys.readouterr().out)
+    assert head[:4] == ["surface", "size", "beams", "primary"]
+    assert head[-3:] == ["shade", "between", "frame"]
+    cells = dict(zip(head, row, strict=True))
+    assert cells["thin"].count("+") == 2
+    assert all(float(cells[name]) >= 0 for name in ("beams", "primary", "shade", "frame"))
+
+
+def test_papers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "figures.json"
+    arguments = ["bench", "peninsula", "--papers", "--seconds", "0", "--device", "cpu", "--threads", "1"]
+    assert main([*arguments, "--markdown", "--json", str(file)]) == 0
+    _, _, row = _cells(capsys.readouterr().out)
+    assert row[:4] == ["peninsula", "512²", "SN10, Table 5", "535 (AMP Taylor, tuned)"]
+    (result,) = json.loads(file.read_text())["results"]
+    assert float(row[4]) == pytest.approx(1e3 / result["wall"]["median"], rel=1e-3)
+    assert float(row[5]) == pytest.approx(1e3 / result["wall"]["median"] / 535, rel=1e-2)
+    assert row[6:8] == ["-", "-"]
+
+
 def test_cold(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "goursat", "--cold", "--runs", "1", "--size", "16", "--markdown"]) == 0
     head, _, row = _cells(capsys.readouterr().out)
@@ -109,6 +164,9 @@ def test_cold(capsys: pytest.CaptureFixture[str]) -> None:
         (["--method", "no-such-method"], "no-such-method"),
         (["--device", "no-such-device"], "no-such-device"),
         (["--json", "no-such-folder/x.json"], "no-such-folder"),
+        (["--papers", "goursat", "--size", "64"], "leave --size out"),
+        (["--papers", "chmutov-30"], "no paper has a frame rate"),
+        (["--passes", "--device", "cpu"], "only a GPU"),
     ],
 )
 def test_mistakes_are_named_before_anything_is_timed(

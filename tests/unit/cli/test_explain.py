@@ -3,8 +3,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
+from tests.gpus import needs_gpu
 
+from zeroset.errors import DeviceError
 from zeroset.kernel.passes import PASSES
+from zeroset.runtime import Device, get_device, registry
+from zeroset.runtime.gpu import GpuDevice, adapter
 
 Run = Callable[..., object]
 
@@ -51,6 +55,41 @@ def test_the_target_code(zeroset: Run) -> None:
     assert "ret" in ran.out
 
 
+def test_a_shader_needs_no_gpu(zeroset: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(adapter, "likely", lambda: False)
+    ran = zeroset("explain", "x + y", "-b", "2", "--kernel", "shade", "--target", "wgsl")
+    assert ran.status == 0
+    first, *rest = ran.out.splitlines()
+    assert first == "// for a GPU with the least that zeroset needs: nothing optional"
+    assert "@compute @workgroup_size(64)" in rest
+    assert "subgroupAny" not in ran.out
+
+
+@needs_gpu
+def test_a_shader_is_the_one_that_the_gpu_here_gets(zeroset: Run) -> None:
+    gpu = get_device("gpu")
+    assert isinstance(gpu, GpuDevice)
+    ran = zeroset("explain", "x^2 + y", "-b", "2", "--target", "wgsl", "-d", "gpu")
+    assert ran.status == 0
+    head = ran.out.splitlines()[0]
+    assert gpu.found.title in head
+    assert ("subgroups" in head, "doubles" in head) == (gpu.target.subgroups, gpu.target.doubles)
+
+
+def test_a_gpu_asked_for_by_name_must_be_there(zeroset: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def none() -> Device:
+        raise DeviceError("there is no GPU", hint="buy one")
+
+    monkeypatch.setattr(registry, "_made", {})
+    monkeypatch.setitem(registry.DEVICES, "gpu", none)
+    monkeypatch.setattr(adapter, "likely", lambda: True)
+    asked = ("explain", "x", "-b", "1", "--kernel", "shade", "--target", "wgsl")
+    assert zeroset(*asked).out.startswith("// for a GPU with the least")
+    ran = zeroset(*asked, "-d", "gpu")
+    assert ran.status == 2
+    assert "there is no GPU" in ran.err
+
+
 @pytest.mark.parametrize(
     ("args", "said"),
     [
@@ -58,7 +97,7 @@ def test_the_target_code(zeroset: Run) -> None:
         (["x", "-b", "1", "--kernel", "primry"], "did you mean primary"),
         (["x", "-b", "1", "--kernel", "beams", "-m", "marching-points"], "there are primary, shade"),
         (["x", "-b", "1", "--kernel", "shade", "--pass", "fould"], "did you mean fold"),
-        (["x", "-b", "1", "--target", "wgsl"], "there are llvm, asm"),
+        (["x", "-b", "1", "--target", "glsl"], "there are llvm, asm, wgsl"),
         (["sin(x)", "-b", "1", "-m", "analytic"], "needs a polynomial"),
     ],
 )

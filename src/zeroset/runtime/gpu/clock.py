@@ -9,6 +9,16 @@ import numpy as np
 _PASSES = 256
 
 
+def _nanoseconds_a_tick(device: Any) -> float:
+    """How long one count of the GPU's clock is, which WebGPU would give in nanoseconds and wgpu-native does not."""
+    try:
+        from wgpu.backends.wgpu_native import lib
+
+        return float(lib.wgpuQueueGetTimestampPeriod(device.queue._internal)) or 1.0
+    except (ImportError, AttributeError):
+        return 1.0
+
+
 class Clock:
     """Timestamps around passes, where it is running.
 
@@ -22,6 +32,8 @@ class Clock:
         self._set: Any = None
         self._buffer: Any = None
         self._labels: list[str] = []
+
+        self._tick = _nanoseconds_a_tick(device) * 1e-6
 
     def start(self) -> None:
         """Time the passes from now on."""
@@ -57,6 +69,6 @@ class Clock:
         if not self._labels:
             return []
         data = self._device.queue.read_buffer(self._buffer, 0, 16 * len(self._labels))
-        times = np.frombuffer(data, np.uint64).reshape(-1, 2).astype(np.float64) * 1e-6
+        times = np.frombuffer(data, np.uint64).reshape(-1, 2).astype(np.float64) * self._tick
         labels, self._labels = self._labels, []
         return [(label, float(a), float(b)) for label, (a, b) in zip(labels, times, strict=True)]
