@@ -79,7 +79,8 @@ def agree_on(
     expected = {name: data.copy() for name, data in buffers.items()}
     interp.run(verify(kernel), count, uniforms or {}, expected)
     optimised = {name: data.copy() for name, data in buffers.items()}
-    interp.run(optimise(kernel), count, uniforms or {}, optimised)
+    # Watched, so that the kernel is verified after each pass.
+    interp.run(optimise(kernel, lambda name, made: None), count, uniforms or {}, optimised)
     given = {}
     for buffer in kernel.buffers:
         given[buffer.name] = device.allocate(buffer.type, len(buffers[buffer.name]))

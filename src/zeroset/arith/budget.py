@@ -16,7 +16,7 @@ second order, which stay below credit**2 * eps since ``credit`` is capped. When 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from zeroset.arith.format import Format
 from zeroset.arith.scalar import Scalar, absolute, add, fma, mul
@@ -32,8 +32,7 @@ _DEEP = 1024
 _PLENTY = 1000.0
 
 
-@dataclass(frozen=True, slots=True)
-class Budget:
+class Budget(NamedTuple):
     """What is known about the error bound of a form; see the module's text.
 
     Attributes:
@@ -48,7 +47,7 @@ class Budget:
 
     def spend(self, price: float) -> Budget:
         """The account after an operation that rounds by ``price * eps * M``; credit may come out negative."""
-        return replace(self, credit=min(self.credit, _CAP) - MARGIN * price)
+        return Budget(min(self.credit, _CAP) - MARGIN * price, self.slack, self.depth)
 
     def worst(self, other: Budget) -> Budget:
         """What holds for whichever of two forms."""
@@ -106,5 +105,5 @@ def funded(
     if after.credit < 0 or after.slack < 0:
         error, after = bought(fmt, centre, terms, error, budget, price)
     if after.depth > _DEEP:
-        error, after = repaid(fmt, error, after.depth), replace(after, depth=0)
+        error, after = repaid(fmt, error, after.depth), after._replace(depth=0)
     return error, after

@@ -7,8 +7,7 @@ theorem).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from zeroset.arith.budget import repaid
 from zeroset.arith.scalar import (
@@ -33,8 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["Contraction", "contract"]
 
 
-@dataclass(frozen=True, slots=True)
-class Contraction:
+class Contraction(NamedTuple):
     """What one affine form says about the zeros of f over its symbol e in [-1, 1].
 
     Attributes:

@@ -7,15 +7,14 @@ tracing, and then cost nothing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from zeroset.arith.scalar import Mask, and_, not_, or_
 
 __all__ = ["TOTAL", "Flags"]
 
 
-@dataclass(frozen=True, slots=True)
-class Flags:
+class Flags(NamedTuple):
     """Domain knowledge about a function on a box.
 
     Attributes:

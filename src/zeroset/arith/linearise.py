@@ -10,8 +10,7 @@ is in the bound.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from zeroset.arith.budget import Budget, quanta, repaid
 from zeroset.arith.scalar import (
@@ -37,8 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["Expansion", "linearise", "narrower", "picked", "point", "span"]
 
 
-@dataclass(frozen=True, slots=True)
-class Expansion:
+class Expansion(NamedTuple):
     """f near a point p, with the errors of computing it.
 
     Attributes:

@@ -22,8 +22,8 @@ def gpu_table(costs: Sequence[GpuCost], machine: Machine) -> Table:
         columns += [f"{size}² GPU", "in flight", "host", "limit", "ratio", "steps", "unres."]
     rows = tuple(_gpu_row(cost, len(columns)) for cost in costs)
     notes = (
-        "Milliseconds. made: making all shaders, tracing included; first: from asking for a new formula's first picture",
-        f"({FIRST}², a draft) to its pixels, no cache of ours or the driver's; whole: to those of the whole picture; again:",
+        "Milliseconds. made: making all shaders, tracing included; first: from asking for a new formula's first",
+        f"picture ({FIRST}², a draft) to its pixels, no cache of ours or the driver's; whole: to the whole one; again:",
         "first with our cache warm. GPU: a frame from its first pass to its last by the GPU's own clock, median; in",
         "flight: wall time a frame, many sent off, only the last",
         "waited for; host: what of that asking for a frame takes. limit: one evaluation of f and of its gradient a",

@@ -85,7 +85,8 @@ def _memory_row(cost: MemoryCost) -> tuple[str, ...]:
 def _command_table(costs: Sequence[CommandCost], machine: Machine) -> Table:
     columns = ("formula of", "size", "cold", "warm", "python alone", "runs of each")
     note = "Whole process, formula to PNG, medians; cold and warm: disk cache empty, and with the formula in it."
-    return Table("zeroset bench --cold", columns, tuple(map(_command_row, costs)), (note, str(machine)))
+    bytecode = "Python's bytecode is there in both, as where pip installed zeroset."
+    return Table("zeroset bench --cold", columns, tuple(map(_command_row, costs)), (note, bytecode, str(machine)))
 
 
 def _command_row(cost: CommandCost) -> tuple[str, ...]:

@@ -62,6 +62,7 @@ def command(
 def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
     """What traces each kernel of a frame, by name, in the order they run."""
     from zeroset.rendering.shade import shade_kernel
+    from zeroset.rendering.shading import Lighting
     from zeroset.rendering.tracer import Tracer
     from zeroset.runtime import get_device
 
@@ -74,7 +75,7 @@ def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
         name: lambda own=own: tracer.kernel(own)  # type: ignore[misc]
         for name, own in passes.items()
     }
-    return made | {"shade": lambda: shade_kernel(len(scene.lights))}
+    return made | {"shade": lambda: shade_kernel(Lighting.of(scene.lights, scene.shadows))}
 
 
 def _one_of(name: str, known: Iterable[str], what: str) -> str:

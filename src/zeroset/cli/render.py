@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import threading
 import time
 from pathlib import Path
@@ -73,13 +72,20 @@ def command(
     scene = find_scene(source, params, bounds)
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     # What writes pictures is loaded while the compiler works, outside Python's lock.
-    threading.Thread(target=importlib.import_module, args=("PIL.Image",), daemon=True).start()
+    threading.Thread(target=_load_formats, daemon=True).start()
     begin = time.perf_counter()
     with Progress("drawing") as progress:
         image = render(scene, read_size(size), None, read_method(method), device, tolerance, progress=progress)
     spent = time.perf_counter() - begin
     _save(image, scene, path, save_scene, save_outputs)
     _tell(image, path, spent, scene.surface.fitted)
+
+
+def _load_formats() -> None:
+    """Load Pillow and the formats that it loads before it writes a picture of any."""
+    from PIL import Image as Pillow
+
+    Pillow.preinit()
 
 
 def _save(image: Image, scene: Scene, path: Path, save_scene: str | None, save_outputs: str | None) -> None:

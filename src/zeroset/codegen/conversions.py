@@ -7,7 +7,7 @@ active may hold such numbers, and must not poison what they meet.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from zeroset.codegen.emit import Emit
 from zeroset.codegen.writer import SCALARS
@@ -17,8 +17,7 @@ ROUNDINGS = {"floor": "llvm.floor", "ceil": "llvm.ceil", "trunc": "llvm.trunc", 
 """LLVM's names of the roundings."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Float:
+class _Float(NamedTuple):
     """Where the parts of an IEEE format lie."""
 
     bits: str

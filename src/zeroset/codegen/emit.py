@@ -19,7 +19,8 @@ class Emit:
         self.result = instruction.results[0].type
         self.vector = writer.is_varying(instruction.results[0])
         self.source = instruction.operands[-1].type
-        self.operands = [writer.form(v, self.vector) for v in instruction.operands]
+        form = writer.vector if self.vector else writer.scalar
+        self.operands = [form(v) for v in instruction.operands]
         self.type = writer.type_of(self.source, self.vector)
 
     def splat(self, type_: str, literal: int | str) -> str:
@@ -40,8 +41,9 @@ class Emit:
 
     def intrinsic(self, name: str, *operands: str) -> str:
         """An LLVM intrinsic over the operands' type."""
-        suffix = self.writer.suffix(self.source, self.vector)
-        return self.writer.call(f"{name}.{suffix}", self.type, *((self.type, text) for text in operands))
+        type_, full = self.type, f"{name}.{self.writer.suffix(self.source, self.vector)}"
+        self.writer.declarations.add(f"declare {type_} @{full}({', '.join([type_] * len(operands))})")
+        return self.writer.assign(f"call {type_} @{full}({type_} {f', {type_} '.join(operands)})")
 
     def truth(self, bits: str) -> str:
         """One bit a lane as the form truth values have."""

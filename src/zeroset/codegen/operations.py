@@ -103,13 +103,13 @@ _RULES: dict[str, Callable[[Emit], str]] = {
 
 def write_pure(writer: Writer, instruction: Instruction) -> None:
     """Write a pure instruction, constants excepted: those are literals where they are used."""
-    result = instruction.results[0]
-    if instruction.op == "select":
+    result, op = instruction.results[0], instruction.op
+    if op == "select":
         writer.define(result, _select(writer, instruction))
-    elif _is_alias(instruction):
+    elif op in ("convert", "bitcast") and _is_alias(instruction):
         writer.rename(result, instruction.operands[0])
     else:
-        writer.define(result, _RULES[instruction.op](Emit(writer, instruction)))
+        writer.define(result, _RULES[op](Emit(writer, instruction)))
 
 
 def _select(writer: Writer, instruction: Instruction) -> str:
@@ -123,7 +123,5 @@ def _select(writer: Writer, instruction: Instruction) -> str:
 
 
 def _is_alias(instruction: Instruction) -> bool:
-    """Signed and unsigned integers are one LLVM type."""
-    if instruction.op not in ("convert", "bitcast"):
-        return False
+    """Whether a conversion does nothing: signed and unsigned integers are one LLVM type."""
     return SCALARS[TYPES[instruction.attributes[0]].name] == SCALARS[instruction.operands[0].type.name]

@@ -18,7 +18,7 @@ SCALARS = {"f32": "float", "f64": "double", "i32": "i32", "u32": "i32", "bool": 
 SUFFIXES = {"f32": "f32", "f64": "f64", "i32": "i32", "u32": "i32", "bool": "i1"}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Register:
     """Where a kernel value lives: an LLVM name or literal, and whether it is a vector of W lanes.
 
@@ -108,7 +108,7 @@ class Writer:
 
     def define(self, value: Value, text: str) -> None:
         """Bind a kernel value to what was just written."""
-        vector = self.is_varying(value)
+        vector = id(value) in self.varying
         self._registers[id(value)] = Register(text, vector, None if vector else self.reserve())
 
     def rename(self, value: Value, like: Value) -> None:
@@ -124,21 +124,27 @@ class Writer:
 
     def scalar(self, value: Value) -> str:
         """A uniform value's scalar."""
-        constant = literal(value)
-        return constant if constant is not None else self._registers[id(value)].text
+        register = self._registers.get(id(value))
+        return self._literal(value) if register is None else register.text
 
     def vector(self, value: Value) -> str:
         """A value's W lanes; a uniform one is broadcast."""
-        constant = literal(value)
-        if constant is not None:
-            return self.splat(value.type, constant)
-        register = self._registers[id(value)]
+        register = self._registers.get(id(value))
+        if register is None:
+            return self.splat(value.type, self._literal(value))
         if register.vector:
             return register.text
         if register.text not in self._broadcasts:
             assert register.spot is not None
             self._broadcasts[register.text] = self._broadcast(value.type, register.text, register.spot)
         return self._broadcasts[register.text]
+
+    def _literal(self, value: Value) -> str:
+        """The literal of a value that nothing has written: only constants are like that."""
+        definition = value.definition
+        assert definition is not None
+        assert definition.op == "const"
+        return literal_text(definition)
 
     def form(self, value: Value, vector: bool) -> str:
         """The value in the asked form."""
@@ -216,16 +222,8 @@ def is_constant(value: Value) -> bool:
     return value.definition is not None and value.definition.op == "const"
 
 
-def literal(value: Value) -> str | None:
-    """The LLVM literal of a constant value, exactly, or None."""
-    definition = value.definition
-    if definition is None or definition.op != "const":
-        return None
-    return literal_text(definition)
-
-
 def literal_text(definition: Instruction) -> str:
-    """The LLVM literal of a ``const`` instruction."""
+    """The LLVM literal of a ``const`` instruction, exactly."""
     kind = definition.results[0].type.kind
     if kind == "f":
         bits = struct.unpack("<Q", struct.pack("<d", float(definition.attributes[0])))[0]

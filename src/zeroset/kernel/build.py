@@ -7,7 +7,6 @@ takes and gives back; lanes that have left a loop or are not in a branch keep th
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from functools import cached_property
@@ -29,10 +28,10 @@ class Kernel:
 
     @cached_property
     def digest(self) -> str:
-        """A hash of the kernel's whole text; equal kernels have equal digests in every process."""
-        from zeroset.kernel.text import to_text
+        """A hash of all of the kernel; equal kernels have equal digests in every process."""
+        from zeroset.kernel.digest import digest_of
 
-        return hashlib.sha256(to_text(self).encode()).hexdigest()
+        return digest_of(self)
 
 
 class KernelBuilder:

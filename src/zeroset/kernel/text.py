@@ -1,4 +1,4 @@
-"""A kernel as text: what ``zeroset explain`` prints, and what a kernel's digest is the hash of."""
+"""A kernel as text: what ``zeroset explain`` prints."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ NumPy dtype beside each name is what the interpreter, the runtimes and their cal
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -43,16 +43,14 @@ BOOL = Type("bool", "b", 0)
 TYPES: dict[str, Type] = {t.name: t for t in (F32, F64, I32, U32, BOOL)}
 
 
-@dataclass(frozen=True, slots=True)
-class Uniform:
+class Uniform(NamedTuple):
     """A scalar that is the same for every lane of a dispatch."""
 
     name: str
     type: Type
 
 
-@dataclass(frozen=True, slots=True)
-class Buffer:
+class Buffer(NamedTuple):
     """A flat array that lanes load from and store to.
 
     Attributes:

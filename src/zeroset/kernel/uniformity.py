@@ -7,7 +7,11 @@ values alone need no masks, and branches on them are real branches. A vote (``an
 from __future__ import annotations
 
 from zeroset.kernel.build import Kernel
+from zeroset.kernel.ops import ATOMICS
 from zeroset.kernel.value import Block, Instruction, Value
+
+_SPECIAL = frozenset({"while", "for", "if", "index", "any", *ATOMICS})
+"""Operations whose results are not simply as their operands are."""
 
 
 def varying_values(kernel: Kernel) -> frozenset[int]:
@@ -27,10 +31,16 @@ def _differs(value: Value, varying: set[int]) -> bool:
 
 def _block(block: Block, varying: set[int]) -> None:
     for instruction in block.instructions:
-        _instruction(instruction, varying)
+        if instruction.op in _SPECIAL:
+            _special(instruction, varying)
+            continue
+        for value in instruction.operands:
+            if id(value) in varying:
+                varying.update(map(id, instruction.results))
+                break
 
 
-def _instruction(instruction: Instruction, varying: set[int]) -> None:
+def _special(instruction: Instruction, varying: set[int]) -> None:
     op = instruction.op
     if op in ("while", "for"):
         _loop(instruction, varying)
@@ -43,11 +53,8 @@ def _instruction(instruction: Instruction, varying: set[int]) -> None:
             branch or _differs(a, varying) or _differs(b, varying) for a, b in zip(yes.yields, no.yields, strict=True)
         ]
         _mark(instruction.results, flags, varying)
-    elif op == "index" or op.startswith("atomic"):
-        _mark(instruction.results, [True], varying)
     elif op != "any":
-        flag = any(_differs(v, varying) for v in instruction.operands)
-        _mark(instruction.results, [flag] * len(instruction.results), varying)
+        varying.update(map(id, instruction.results))
 
 
 def _loop(instruction: Instruction, varying: set[int]) -> None:

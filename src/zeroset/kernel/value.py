@@ -12,6 +12,7 @@ import struct
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache, lru_cache
 from typing import Any, Union
 
 import numpy as np
@@ -40,7 +41,8 @@ class Instruction:
         self.operands = operands
         self.attributes = attributes
         self.regions = regions
-        self.results = tuple([Value(t, self) for t in types])
+        # Nearly all instructions have one result.
+        self.results = (Value(types[0], self),) if len(types) == 1 else tuple([Value(t, self) for t in types])
 
 
 class Block:
@@ -81,15 +83,16 @@ def emit(
     regions: tuple[Block, ...] = (),
 ) -> tuple[Value, ...]:
     """Append an instruction to the block being traced, or find the equal one already in scope."""
-    if not _trace.blocks:
+    blocks = _trace.blocks
+    if not blocks:
         raise KernelError("a kernel value was used outside the kernel that is being traced")
-    block = _trace.blocks[-1]
+    block = blocks[-1]
     if not OPS[op].pure:
         instruction = Instruction(op, operands, attributes, types, regions)
         block.instructions.append(instruction)
         return instruction.results
-    key = (op, attributes, *map(id, operands), types)
-    for scope in reversed(_trace.blocks):
+    key = (op, attributes, types, *map(id, operands))
+    for scope in reversed(blocks):
         found = scope.seen.get(key)
         if found is not None:
             return found.results
@@ -102,20 +105,34 @@ def emit(
 def constant(value: float | int | bool, type_: Type) -> Value:
     """A constant of a kernel type; floats are rounded to nearest. NaN and infinity are not constants of kernels."""
     if type_.kind == "f":
-        try:
-            rounded = struct.unpack("<f", struct.pack("<f", value))[0] if type_ == F32 else float(value)
-        except OverflowError:
-            rounded = math.inf
-        if not math.isfinite(rounded):
-            raise KernelError(f"{value!r} is no finite {type_} constant; use a large finite sentinel instead")
-        # repr keeps 0.0 and -0.0 apart, which compare equal as dictionary keys.
-        return emit("const", (), (repr(rounded),), (type_,))[0]
+        # Zeros are not remembered: 0.0 and -0.0 compare equal as dictionary keys.
+        text = _remembered_text(value, type_) if value else _float_text(value, type_)
+        return emit("const", (), (text,), (type_,))[0]
     if type_.kind in "iu":
         info = np.iinfo(type_.dtype)
         if int(value) != value or not info.min <= value <= info.max:
             raise KernelError(f"{value!r} is no {type_} constant")
         return emit("const", (), (str(int(value)),), (type_,))[0]
     return emit("const", (), (str(bool(value)),), (type_,))[0]
+
+
+def _float_text(value: float, type_: Type) -> str:
+    """A float as ``const`` instructions hold it, rounded to the type; 0.0 and -0.0 differ."""
+    try:
+        rounded = struct.unpack("<f", struct.pack("<f", value))[0] if type_ == F32 else float(value)
+    except OverflowError:
+        rounded = math.inf
+    if not math.isfinite(rounded):
+        raise KernelError(f"{value!r} is no finite {type_} constant; use a large finite sentinel instead")
+    return repr(rounded)
+
+
+_remembered_text = lru_cache(4096)(_float_text)
+
+
+@cache
+def _result(name: str, *operands: Type) -> tuple[Type]:
+    return (result_type(OPS[name], operands),)
 
 
 def constant_value(instruction: Instruction) -> Any:
@@ -138,10 +155,10 @@ def lift(value: Scalar, type_: Type) -> Value:
 def apply(name: str, *operands: Value) -> Value:
     """Emit a pure operation whose type follows from its operands."""
     try:
-        type_ = result_type(OPS[name], tuple(v.type for v in operands))
+        types = _result(name, *[v.type for v in operands])
     except ValueError as error:
         raise KernelError(str(error)) from None
-    return emit(name, operands, (), (type_,))[0]
+    return emit(name, operands, (), types)[0]
 
 
 class Value:
@@ -160,7 +177,7 @@ class Value:
         raise KernelError("a kernel value has no truth while tracing; use select, if_ or while_ instead of a Python if")
 
     def _binary(self, name: str, other: Scalar) -> Value:
-        return apply(name, self, lift(other, self.type))
+        return apply(name, self, other if isinstance(other, Value) else lift(other, self.type))
 
     def _reflected(self, name: str, other: Scalar) -> Value:
         return apply(name, lift(other, self.type), self)

@@ -1,4 +1,5 @@
-"""What a legal kernel is. Runs after tracing and after every pass; a violation is a bug in zeroset, said clearly.
+"""What a legal kernel is. Runs before and after the passes, and after each one for those who watch them; a violation
+is a bug in zeroset, said clearly.
 
 Legal: every operand is defined before its use in an enclosing scope; operand and result types follow the operation
 table; loops and branches carry and yield matching types; memory operations name declared buffers of the right type;
@@ -22,8 +23,8 @@ class _Verifier:
         self.uniforms = {u.name: u.type for u in kernel.uniforms}
         self.buffers = {b.name: b for b in kernel.buffers}
         self.defined: set[int] = set()
-        # Most instructions repeat an operation on types already found right.
-        self.legal: set[tuple[str, tuple[Type, ...], tuple[Type, ...]]] = set()
+        # Most instructions repeat an operation on types already found right: its name, its one result, its operands.
+        self.legal: set[tuple[str | Type, ...]] = set()
 
     def fail(self, instruction: Instruction | None, why: str) -> None:
         where = f" in {instruction.op}" if instruction is not None else ""
@@ -33,13 +34,16 @@ class _Verifier:
         """Check a block whose values go out of scope at its end."""
         inside = [id(v) for v in block.parameters]
         self.defined.update(inside)
-        defined = self.defined
+        defined, legal = self.defined, self.legal
         for instruction in block.instructions:
             for operand in instruction.operands:
                 if id(operand) not in defined:
                     self.fail(instruction, "an operand is used where it is not defined")
-            self.instruction(instruction)
-            for result in instruction.results:
+            results = instruction.results
+            operands = [v.type for v in instruction.operands]
+            if len(results) != 1 or (instruction.op, results[0].type, *operands) not in legal:
+                self.instruction(instruction)
+            for result in results:
                 defined.add(id(result))
                 inside.append(id(result))
         if any(id(v) not in defined for v in block.yields):
@@ -51,9 +55,6 @@ class _Verifier:
     def instruction(self, instruction: Instruction) -> None:
         types = tuple([v.type for v in instruction.operands])
         results = tuple([v.type for v in instruction.results])
-        typing = (instruction.op, types, results)
-        if typing in self.legal:
-            return
         op = OPS.get(instruction.op)
         if op is None:
             self.fail(instruction, "there is no such operation")
@@ -68,7 +69,7 @@ class _Verifier:
                 return
             if results != (expected,):
                 self.fail(instruction, f"its result should be {expected}")
-            self.legal.add(typing)
+            self.legal.add((op.name, expected, *types))
             return
         check = getattr(self, f"_{op.name}", None) or (self._atomic if op.name.startswith("atomic") else None)
         if check is None:

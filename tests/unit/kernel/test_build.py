@@ -21,6 +21,7 @@ from zeroset.kernel import (
     store,
     while_,
 )
+from zeroset.kernel.types import Type
 
 
 def scale(factor: float) -> Kernel:
@@ -34,6 +35,28 @@ def test_equal_kernels_have_equal_digests() -> None:
     assert scale(2.0).digest == scale(2.0).digest
     assert scale(2.0).digest != scale(2.5).digest
     assert scale(0.0).digest != scale(-0.0).digest
+
+
+def test_whatever_differs_is_in_the_digest() -> None:
+    def made(
+        name: str = "k", uniform: str = "a", writable: bool = True, swap: bool = False, other: bool = False,
+        type_: Type = U32, count: int = 2,
+    ) -> Kernel:  # fmt: skip
+        with KernelBuilder(name) as k:
+            out, i = k.buffer("out", F32, writable=True), k.index()
+            x, a = load(k.buffer("x", F32, writable=writable), i), k.uniform(uniform, F32)
+            first, second = (x - a, a - x) if swap else (a - x, x - a)
+            (y,) = if_(x > 0.0, lambda: (first,), lambda: (second,))
+            (y,) = for_(count, lambda j, v: v * (y if other else a), y)
+            store(out, i, y.convert(type_).convert(F32))
+        return k.kernel
+
+    kernels = [
+        made(), made(name="l"), made(uniform="b"), made(writable=False), made(swap=True), made(other=True),
+        made(type_=I32), made(count=3),
+    ]  # fmt: skip
+    assert len({kernel.digest for kernel in kernels}) == len(kernels)
+    assert made().digest == kernels[0].digest
 
 
 def test_equal_instructions_are_traced_once() -> None:

@@ -11,15 +11,14 @@ stands for flushed subnormals.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from zeroset.arith.format import Format
 
 __all__ = ["ErrorBound", "by_roots", "error_bound", "power_error", "trigonometric_limit"]
 
 
-@dataclass(frozen=True, slots=True)
-class ErrorBound:
+class ErrorBound(NamedTuple):
     """See the module's text; ``relative`` is in units of eps, the others are absolute numbers."""
 
     relative: float

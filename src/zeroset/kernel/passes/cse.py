@@ -48,12 +48,12 @@ class _Merger(Rewriter):
 
 
 def _key(op: str, operands: tuple[Value, ...], instruction: Instruction) -> Any:
-    ids = [id(v) for v in operands]
+    ids: Any = map(id, operands)
     if op in _COMMUTE:
-        ids.sort()
+        ids = sorted(ids)
     elif op in _SWAP:
         op = _SWAP[op]
-        ids.reverse()
+        ids = map(id, operands[::-1])
     return (op, instruction.attributes, instruction.results[0].type, *ids)
 
 

@@ -7,10 +7,12 @@ goes too: loops of kernels end. Two steps, mark and sweep, each linear.
 from __future__ import annotations
 
 from zeroset.kernel.build import Kernel
+from zeroset.kernel.ops import ATOMICS
 from zeroset.kernel.passes.rewriter import Rewriter
 from zeroset.kernel.value import Block, Instruction, Value
 
 _Carried = tuple[Instruction, int]
+_EFFECTS = frozenset({"store", *ATOMICS})
 
 
 class _Marks:
@@ -26,8 +28,7 @@ class _Marks:
         for instruction in effects:
             self._keep(instruction)
             self._pending += instruction.operands
-        while self._pending:
-            self._visit(self._pending.pop())
+        self._follow()
 
     def _survey(self, kernel: Kernel) -> list[Instruction]:
         """Note who owns parameters and regions; gives the instructions that have an effect."""
@@ -41,9 +42,10 @@ class _Marks:
             for instruction in block.instructions:
                 if owner is not None:
                     self._parents[id(instruction)] = owner
-                if instruction.op == "store" or instruction.op.startswith("atomic"):
+                if instruction.op in _EFFECTS:
                     effects.append(instruction)
-                todo += [(region, instruction) for region in instruction.regions]
+                elif instruction.regions:
+                    todo += [(region, instruction) for region in instruction.regions]
         return effects
 
     def _keep(self, instruction: Instruction) -> None:
@@ -57,22 +59,26 @@ class _Marks:
                 self._pending.append(outer.operands[0])
             outer = self._parents.get(id(outer))
 
-    def _visit(self, value: Value) -> None:
-        if id(value) in self.values:
-            return
-        self.values.add(id(value))
-        definition = value.definition
-        if definition is None:
-            owner, place = self._owners[id(value)]
-            self._keep(owner)
-            if place >= 0:
-                self._pending.append(owner.results[place])
-        elif not definition.regions:
+    def _follow(self) -> None:
+        """From what is needed to what that needs, until nothing is new."""
+        pending, seen = self._pending, self.values
+        while pending:
+            value = pending.pop()
+            if id(value) in seen:
+                continue
+            seen.add(id(value))
+            definition = value.definition
+            if definition is None:
+                owner, place = self._owners[id(value)]
+                self._keep(owner)
+                if place >= 0:
+                    pending.append(owner.results[place])
+                continue
             self._keep(definition)
-            self._pending += definition.operands
-        else:
-            self._keep(definition)
-            self._carry(definition, definition.results.index(value))
+            if definition.regions:
+                self._carry(definition, definition.results.index(value))
+            else:
+                pending += definition.operands
 
     def _carry(self, instruction: Instruction, place: int) -> None:
         """One result of a loop or branch is alive: so is what it starts with and what its regions give."""

@@ -18,6 +18,9 @@ from zeroset.kernel.passes.rewriter import Rewriter
 from zeroset.kernel.types import BOOL, TYPES, Type
 from zeroset.kernel.value import Instruction, Value, constant_value
 
+_TELLING = frozenset({"const", "neg", "abs", "not", "lt", "le", "gt", "ge", "eq", "ne"})
+"""Operations that a law looks for behind an operand."""
+
 
 class Folder(Rewriter):
     """A rebuilding in which constants are computed and laws applied."""
@@ -32,7 +35,7 @@ class Folder(Rewriter):
             self._control(instruction)
             return
         operands = self.all(instruction.operands)
-        value = self._simplify(instruction, operands)
+        value = self._simplify(instruction, operands) if _is_special(operands) else None
         if value is None:
             self.place(instruction, operands, (), self.blocks[-1])
         else:
@@ -106,6 +109,15 @@ class Folder(Rewriter):
         """The operand of a value that a one-operand operation made, else None."""
         definition = value.definition
         return definition.operands[0] if definition is not None and definition.op == op else None
+
+
+def _is_special(operands: tuple[Value, ...]) -> bool:
+    """Whether some law may apply: an operand that tells something, or the same one twice. Few instructions have one."""
+    for value in operands:
+        definition = value.definition
+        if definition is not None and definition.op in _TELLING:
+            return True
+    return len(operands) > 1 and (operands[0] is operands[1] or operands[-2] is operands[-1])
 
 
 def fold(kernel: Kernel) -> Kernel:

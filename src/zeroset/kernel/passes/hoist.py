@@ -42,9 +42,12 @@ class _Hoister(Rewriter):
         """The outermost block where the operands are known and that only loops separate from here."""
         if op == "const":
             return 0
-        depths = self.depths
-        needed = max([depths[id(v)] for v in operands], default=0)
-        depth = len(self.blocks) - 1
+        depth, depths, needed = len(self.blocks) - 1, self.depths, 0
+        for value in operands:
+            around = depths[id(value)]
+            if around == depth:
+                return depth
+            needed = max(needed, around)
         while depth > needed and self.loops[depth]:
             depth -= 1
         return depth

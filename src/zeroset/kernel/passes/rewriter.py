@@ -38,8 +38,9 @@ class Rewriter:
 
     def inside(self, block: Block) -> None:
         """Rebuild a block's instructions at the end of the block being made."""
+        rebuild = self.instruction
         for instruction in block.instructions:
-            self.instruction(instruction)
+            rebuild(instruction)
 
     def instruction(self, instruction: Instruction) -> None:
         """Rebuild one instruction, regions included."""
@@ -50,7 +51,7 @@ class Rewriter:
         self, instruction: Instruction, operands: tuple[Value, ...], regions: tuple[Block, ...], block: Block
     ) -> Instruction:
         """Append an instruction with new operands and regions, or itself where they are the old ones."""
-        if not regions and operands == instruction.operands:
+        if not regions and operands is instruction.operands:
             block.instructions.append(instruction)
             return instruction
         types = tuple([v.type for v in instruction.results])
@@ -60,9 +61,12 @@ class Rewriter:
         return made
 
     def all(self, values: tuple[Value, ...]) -> tuple[Value, ...]:
-        """What values have become."""
+        """What values have become; the same tuple where none has changed, which is the rule."""
         known = self.values
-        return tuple([known.get(id(v), v) for v in values])
+        for value in values:
+            if id(value) in known:
+                return tuple([known.get(id(v), v) for v in values])
+        return values
 
     def bind(self, old: tuple[Value, ...], new: tuple[Value, ...]) -> None:
         """Say what values have become."""

@@ -259,6 +259,29 @@ def test_optimise_refuses_an_illegal_kernel() -> None:
         optimise(Kernel("k", (), (), block))
 
 
+def test_a_pass_that_breaks_the_kernel_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    def breaks(kernel: Kernel) -> Kernel:
+        block = Block()
+        block.instructions = kernel.body.instructions[1:]
+        return Kernel(kernel.name, kernel.uniforms, kernel.buffers, block)
+
+    def drops_a_use(kernel: Kernel) -> Kernel:
+        block = Block()
+        block.instructions = kernel.body.instructions[:1]
+        return Kernel(kernel.name, kernel.uniforms, kernel.buffers, block)
+
+    kernel = traced(lambda k, x, a: x * a)
+    monkeypatch.setitem(PASSES, "dce", breaks)
+    with pytest.raises(KernelError, match="not defined"):
+        optimise(kernel)
+    seen: list[str] = []
+    monkeypatch.setitem(PASSES, "cse", breaks)
+    monkeypatch.setitem(PASSES, "dce", drops_a_use)
+    with pytest.raises(KernelError, match="not defined"):
+        optimise(kernel, lambda name, made: seen.append(name))
+    assert seen == ["fold", "flatten", "hoist"]
+
+
 def test_passes_do_not_nest_calls_with_the_length_of_a_kernel() -> None:
     with KernelBuilder("long") as k:
         x, i = k.buffer("x", F32, writable=True), k.index()

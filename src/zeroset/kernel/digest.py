@@ -1,0 +1,55 @@
+"""A kernel's digest: the hash of all that its code depends on, under which compiled code is kept."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from zeroset.kernel.build import Kernel
+    from zeroset.kernel.value import Block
+
+
+def digest_of(kernel: Kernel) -> str:
+    """The same for equal kernels in every process, and for no others; values count by where they first appear.
+
+    Example:
+        >>> from zeroset.kernel import KernelBuilder
+        >>> with KernelBuilder("a") as a, KernelBuilder("b") as b:
+        ...     pass
+        >>> digest_of(a.kernel) == digest_of(b.kernel)
+        False
+    """
+    parts: list[object] = [kernel.name, len(kernel.uniforms), len(kernel.buffers)]
+    for uniform in kernel.uniforms:
+        parts += (uniform.name, uniform.type.name)
+    for buffer in kernel.buffers:
+        parts += (buffer.name, buffer.type.name, buffer.writable)
+    _block(kernel.body, parts, _Numbers())
+    # repr puts each text between quotes: with the counts before all that may be longer or shorter, no two kernels
+    # give one text.
+    return hashlib.sha256(repr(parts).encode()).hexdigest()
+
+
+class _Numbers(dict[int, int]):
+    """A number for each value's id, counted up as they come."""
+
+    def __missing__(self, key: int) -> int:
+        number = self[key] = len(self)
+        return number
+
+
+def _block(block: Block, parts: list[object], numbers: _Numbers) -> None:
+    """A block's parameters, instructions and yields; regions follow their instruction."""
+    parts += (len(block.parameters), len(block.instructions), len(block.yields))
+    for value in block.parameters:
+        parts += (numbers[id(value)], value.type.name)
+    for instruction in block.instructions:
+        attributes, operands, regions = instruction.attributes, instruction.operands, instruction.regions
+        parts += (instruction.op, len(attributes), len(operands), len(instruction.results), len(regions), *attributes)
+        parts += [numbers[id(v)] for v in operands]
+        for value in instruction.results:
+            parts += (numbers[id(value)], value.type.name)
+        for region in regions:
+            _block(region, parts, numbers)
+    parts += [numbers[id(v)] for v in block.yields]
