@@ -18,6 +18,8 @@ THIN = {"block_missed": U32, "thin_block": U32, "thin_pixel": U32}
 and of pixels that may hold something thinner than a pixel."""
 COUNTERS = "counters"
 """How long the lists are: the second look's, the blocks' and the pixels' with thin parts."""
+LIT = "lit"
+"""Which lights reach a pixel's point, a bit each."""
 PICTURE = "rgba"
 """The picture, packed bytes in rows."""
 BLOCK = 16

@@ -10,7 +10,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,8 +19,9 @@ import numpy.typing as npt
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import U32
-from zeroset.rendering.buffers import COUNTERS, FIELDS, PICTURE
+from zeroset.rendering.buffers import COUNTERS, FIELDS, LIT, PICTURE
 from zeroset.rendering.layout import TILE, Layout
+from zeroset.rendering.shading import Lighting
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device
 from zeroset.scene.bounds import bounds_kind
@@ -43,7 +44,7 @@ class Structure:
     field: str
     method: str
     bounds: str
-    lights: int
+    lighting: Lighting
     layout: Layout
     device: int
 
@@ -78,18 +79,24 @@ class Frame:
     """The programs and buffers of one structure."""
 
     def __init__(
-        self, surface: Surface, method: Method, lights: int, layout: Layout, device: Device, draft: bool = False
+        self,
+        surface: Surface,
+        method: Method,
+        lighting: Lighting,
+        layout: Layout,
+        device: Device,
+        draft: bool = False,
     ) -> None:
         def shader() -> Kernel:
             from zeroset.rendering.shade import shade_kernel
 
-            return shade_kernel(lights)
+            return shade_kernel(lighting)
 
         self.layout = layout
         self.device = device
         self.lock = threading.Lock()
-        self._tracer = Tracer(surface, method, device, pixels=True)
-        self._shader = f"shade {lights}"
+        self._tracer = Tracer(surface, method, device, pixels=True, shadows=lighting.shadows)
+        self._shader = f"shade {lighting}"
         self._tracer.add(self._shader, shader)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
@@ -112,6 +119,7 @@ class Frame:
         thin: bool,
         progress: Progress | None = None,
         draft: bool = False,
+        lights: Iterable[Mapping[str, float]] = (),
     ) -> GBuffer:
         """Run the passes; gives the outputs, which a GPU may still be working on.
 
@@ -121,6 +129,7 @@ class Frame:
             thin: whether to draw thin parts.
             progress: told the share that is done.
             draft: leave out second looks and thin parts, which some pixels need and every picture can do without.
+            lights: the shadow pass's uniforms for each light, where there are shadows.
         """
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
@@ -139,6 +148,8 @@ class Frame:
             self._tracer.second_look(surface, uniforms, bound)
         if thin and not draft:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
+        if LIT in self._buffers:
+            self._tracer.shadows(lights, uniforms, bound)
         self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
         self.device.submit()
         outputs = GBuffer(
@@ -157,15 +168,15 @@ KEPT_LANES = 1 << 23
 
 
 def frame_for(
-    surface: Surface, method: Method, lights: int, layout: Layout, device: Device, draft: bool = False
+    surface: Surface, method: Method, lighting: Lighting, layout: Layout, device: Device, draft: bool = False
 ) -> Frame:
     """The frame of a structure, kept from an earlier picture where there was one; its programs are being compiled."""
     kind = bounds_kind(surface.bounds)
-    structure = Structure(surface.field.digest, method.structure(), kind, lights, layout, id(device))
+    structure = Structure(surface.field.digest, method.structure(), kind, lighting, layout, id(device))
     with _frames_lock:
         frame = _frames.get(structure)
         if frame is None:
-            frame = Frame(surface, method, lights, layout, device, draft)
+            frame = Frame(surface, method, lighting, layout, device, draft)
             _frames[structure] = frame
         else:
             frame.compile(draft)

@@ -13,7 +13,7 @@ from zeroset.rendering.bands import Assembled, bands, fits
 from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import shading_uniforms
+from zeroset.rendering.shading import Lighting, shading_uniforms, shadow_uniforms
 from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, bounds_uniforms, number
@@ -46,6 +46,8 @@ def render(
     background: Color | None = None,
     thin: bool = True,
     draft: bool = False,
+    shadows: bool | None = None,
+    shadow_tolerance: float | None = None,
     progress: Progress | None = None,
 ) -> Image:
     """Draw a surface.
@@ -63,6 +65,8 @@ def render(
         thin: also draw what is thinner than a pixel and lies between the rays, down to lines and points without any
             thickness, as UNRESOLVED; certified methods only.
         draft: leave out thin parts, and second looks at what f32 left unresolved: the picture of a window that moves.
+        shadows: whether the lights throw shadows; None takes the scene's own.
+        shadow_tolerance: world length to which shadows are found; None takes 2^-11 of the bounds' extent.
         progress: called now and then with the share that is done, from 0 to 1.
 
     Returns:
@@ -83,6 +87,7 @@ def render(
         material=scene.material if material is None else material,
         lights=scene.lights if lights is None else tuple(lights),
         background=scene.background if background is None else background,
+        shadows=scene.shadows if shadows is None else shadows,
     )
     shown, lit = scene.surface, scene.lights
     layout = _layout(size)
@@ -90,25 +95,27 @@ def render(
     chosen.check(shown.field)
     shown.check_work()
     target = get_device(device)
-    whole = fits(layout, target)
+    whole, lighting = fits(layout, target), Lighting.of(lit, scene.shadows)
     # First the frame: its kernels are compiled while the bounds are being fitted.
-    frame = frame_for(shown, chosen, len(lit), layout, target, draft) if whole else None
+    frame = frame_for(shown, chosen, lighting, layout, target, draft) if whole else None
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
     uniforms |= shading_uniforms(scene.material, lit, scene.background, rays)
+    coarse = shadow_length(shadow_tolerance, shown.fitted)
+    dark = shadow_uniforms(lit, rays, shown.fitted, coarse) if scene.shadows else []
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
-            outputs = frame.draw(shown, uniforms, thin, progress, draft)
+            outputs = frame.draw(shown, uniforms, thin, progress, draft, dark)
     else:
         outputs = Assembled(layout)
         parts = tuple(bands(layout, target))
         for i, band in enumerate(parts):
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
-            part = frame_for(shown, chosen, len(lit), band.layout, target, draft)
+            part = frame_for(shown, chosen, lighting, band.layout, target, draft)
             with part.lock:
-                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft))
+                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft, dark))
     return Image((layout.width, layout.height), outputs, chosen.certified)
 
 
@@ -138,6 +145,16 @@ def world_tolerance(value: float | None, bounds: Bounds) -> float:
     length = number(value, "the tolerance", ParameterError)
     if not length >= SMALLEST:
         raise ParameterError(f"the tolerance must be at least {SMALLEST:g}, not {value!r}")
+    return length
+
+
+def shadow_length(value: float | None, bounds: Bounds) -> float:
+    """The shadows' tolerance that was asked for, or the default; raises ``ParameterError`` for one that is no length."""
+    if value is None:
+        return bounds.extent * 2.0**-11
+    length = number(value, "the shadow tolerance", ParameterError)
+    if not length >= SMALLEST:
+        raise ParameterError(f"the shadow tolerance must be at least {SMALLEST:g}, not {value!r}")
     return length
 
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from zeroset.kernel import F32, U32, Kernel, KernelBuilder, if_, load, store
+from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, if_, load, store
+from zeroset.rendering.buffers import LIT
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
-from zeroset.rendering.shading import LIGHT
+from zeroset.rendering.shading import LIGHT, Lighting
 from zeroset.rendering.view import pixel_ray
 from zeroset.shade.reflectance import blinn_phong, normalised
 from zeroset.shade.tone import encode, pack
+from zeroset.solve.field import Ray
 from zeroset.solve.status import MISS
 
 
-def shade_kernel(lights: int) -> Kernel:
-    """Blinn-Phong over the background; ``lights`` shapes the kernel, everything else is uniforms."""
+def shade_kernel(lighting: Lighting) -> Kernel:
+    """Blinn-Phong over the background; the lighting shapes the kernel, everything else is uniforms."""
     with KernelBuilder("shade") as builder:
         lane = builder.index()
         normal = [load(builder.buffer(name, F32), lane) for name in ("nx", "ny", "nz")]
@@ -21,7 +23,7 @@ def shade_kernel(lights: int) -> Kernel:
         def lit() -> tuple[object, ...]:
             ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
             toward_eye = [-d for d in normalised(ray.direction)]
-            sources = [[builder.uniform(f"light{i}_{name}", F32) for name in LIGHT] for i in range(lights)]
+            sources = _sources(builder, lighting, ray, lane)
             color = blinn_phong(lambda name: builder.uniform(name, F32), normal, toward_eye, sources)
             return tuple(encode(c) for c in color)
 
@@ -36,3 +38,20 @@ def shade_kernel(lights: int) -> Kernel:
         inside = (column < width) & (row < builder.uniform("height", U32))
         if_(inside, lambda: store(rgba, row * width + column, color))
     return builder.kernel
+
+
+def _sources(builder: KernelBuilder, lighting: Lighting, ray: Ray, lane: Value) -> list[list[Value]]:
+    """For each light the unit direction towards it and its colour, black where something is in its path."""
+    sources = [[builder.uniform(f"light{i}_{name}", F32) for name in LIGHT] for i in range(len(lighting.kinds))]
+    if "p" in lighting.kinds:
+        t = load(builder.buffer("t", F32), lane)
+        point = [t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
+        for i, kind in enumerate(lighting.kinds):
+            if kind == "p":
+                sources[i][:3] = normalised([p - x for p, x in zip(sources[i][:3], point, strict=True)])
+    if lighting.shadows:
+        lit = load(builder.buffer(LIT, U32), lane)
+        for i, source in enumerate(sources):
+            reached = ((lit >> i) & 1).ne(0)
+            source[3:] = [reached.select(c, 0.0) for c in source[3:]]
+    return sources

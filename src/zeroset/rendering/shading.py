@@ -1,15 +1,36 @@
-"""The numbers of the shading pass: material, lights and background as uniforms."""
+"""The numbers of the shading and shadow passes: material, lights and background as uniforms."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
+from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Rays
 from zeroset.scene.light import Color, Light, Material
 
 LIGHT = ("x", "y", "z", "r", "g", "b")
+
+
+@dataclass(frozen=True, slots=True)
+class Lighting:
+    """What of the lights shapes kernels.
+
+    Attributes:
+        kinds: a letter for each: ``d`` far away in a direction, ``p`` at a place.
+        shadows: whether they throw shadows.
+    """
+
+    kinds: str
+    shadows: bool = False
+
+    @classmethod
+    def of(cls, lights: Sequence[Light], shadows: bool) -> Lighting:
+        """The lighting of a scene."""
+        return cls("".join("d" if light.position is None else "p" for light in lights), shadows)
 
 
 def srgb(linear: float) -> float:
@@ -30,11 +51,29 @@ def shading_uniforms(material: Material, lights: Sequence[Light], background: Co
     return named
 
 
+def shadow_uniforms(lights: Sequence[Light], rays: Rays, bounds: Bounds, tolerance: float) -> list[dict[str, float]]:
+    """Numbers of the shadow pass by uniform name, for each light."""
+    made = []
+    for i, light in enumerate(lights):
+        near = light.position is not None
+        # From anywhere inside the bounds, twice their extent leads out.
+        place = np.asarray(_world(light, rays)) * (1.0 if near else 2.0 * bounds.extent + 2.0 * bounds.reach)
+        named = {f"light_{axis}": float(v) for axis, v in zip("xyz", place, strict=True)}
+        made.append(named | {"light_w": float(near), "shadow_tolerance": tolerance, "bit": 1 << i})
+    return made
+
+
 def _world(light: Light, rays: Rays) -> tuple[float, ...]:
-    direction = np.asarray(light.direction, np.float64)
+    """The light's place, or the unit direction towards it, in the world."""
+    given = light.direction if light.position is None else light.position
+    vector: npt.NDArray[np.float64] = np.asarray(given, np.float64)
     if light.headlight:
         across = np.asarray(rays.right) + np.asarray(rays.right_origin)
         upwards = np.asarray(rays.up) + np.asarray(rays.up_origin)
         frame = [across / np.linalg.norm(across), upwards / np.linalg.norm(upwards), -np.asarray(rays.forward)]
-        direction = direction @ np.stack(frame)
-    return tuple(float(v) for v in direction / np.linalg.norm(direction))
+        vector = vector @ np.stack(frame)
+        if light.position is not None:
+            vector = vector + np.asarray(rays.eye)
+    if light.position is None:
+        vector = vector / np.linalg.norm(vector)
+    return tuple(float(v) for v in vector)

@@ -6,7 +6,7 @@ compiled side by side while the first are already running.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, FROM, NOTHING, ONWARD, SECOND, THIN
+from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, FROM, LIT, NOTHING, ONWARD, SECOND, THIN
 from zeroset.rendering.layout import TILE
 from zeroset.rendering.values import Arrays, parameter_uniforms
 from zeroset.runtime import Counted, Device, Program
@@ -23,7 +23,7 @@ from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
 Buffers = Mapping[str, Any]
-DRAFT = ("beams", "first")
+DRAFT = ("beams", "first", "shadow")
 """The passes of a draft, which leaves out second looks and thin parts."""
 ORDER = (*DRAFT, "thin", "second")
 """Passes in the order in which their programs are made: the second look, which a picture often needs not, at last."""
@@ -41,11 +41,21 @@ class Tracer:
         method: how.
         device: where.
         pixels: whether the rays are a camera's, one a pixel, or a caller's.
+        shadows: whether there is a pass for what is in the lights' path.
         layered: whether each run of the first look finds what comes behind the last run's finds (``layers``).
     """
 
-    def __init__(self, surface: Surface, method: Method, device: Device, pixels: bool, layered: bool = False) -> None:
+    def __init__(
+        self,
+        surface: Surface,
+        method: Method,
+        device: Device,
+        pixels: bool,
+        layered: bool = False,
+        shadows: bool = False,
+    ) -> None:
         self._layered = layered
+        self._shadows = shadows
         self._method = method
         self._device = device
         self.certified = method.certified
@@ -92,7 +102,14 @@ class Tracer:
 
             return thin_kernel(field, offset, kind)
 
+        def shadow() -> Kernel:
+            from zeroset.rendering.shadow import shadow_kernel
+
+            return shadow_kernel(field, offset, kind)
+
         made: dict[str, Callable[[], Kernel]] = {"first": first}
+        if self._shadows:
+            made["shadow"] = shadow
         if self._second:
             made["second"] = second
         if self.beams:
@@ -155,6 +172,8 @@ class Tracer:
         wanted = ({} if self._layered else FIELDS) | (SECOND if self._second else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, 3)
+        if self._shadows:
+            made[LIT] = self._device.allocate(U32, rays)
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
             made |= {
@@ -199,6 +218,13 @@ class Tracer:
         exact = {**uniforms, **parameter_uniforms(surface, self._method, F64)}
         arrays = self._arrays.bind(surface, F64) if surface.arrays else {}
         self.program("second").run(Counted(bound[COUNTERS], 0), exact, {**bound, **arrays})
+
+    def shadows(self, lights: Iterable[Mapping[str, float]], uniforms: Mapping[str, float], bound: Buffers) -> None:
+        """See which lights reach what was found."""
+        self._device.clear(bound[LIT])
+        rays = len(bound[LIT])
+        for light in lights:
+            self.program("shadow").run(rays, {**uniforms, **light}, bound)
 
     def thin_parts(self, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
         """Draw what lies between the rays: by blocks, by the pixels of those, by the parts of those."""

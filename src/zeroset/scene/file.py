@@ -6,6 +6,7 @@ Every key is optional but ``formula``:
     name = "tangle"
     bounds = 3.0                                    # or {center, radius}, or {min, max}
     background = [1.0, 1.0, 1.0]
+    shadows = true
     params = {a = 5.0}
     camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
     material = {front = [0.9, 0.5, 0.1], shininess = 40}
@@ -30,7 +31,7 @@ from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Mater
 from zeroset.scene.scene import MOST_LIGHTS, Scene, as_scene
 from zeroset.scene.surface import Surface, surface
 
-KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights")
+KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights", "shadows")
 LARGEST = 4_000_000
 """Bytes of a scene file."""
 
@@ -123,7 +124,9 @@ class _Reader:
         material = self.build(Material, data.get("material", {}), "material")
         lit = DEFAULT_LIGHTS if lights is None else tuple(self.build(Light, light, "lights") for light in lights)
         with _placing(self, "lights" if len(lit) > MOST_LIGHTS else "background"):
-            return Scene(shape, camera, material, lit, data.get("background", DEFAULT_BACKGROUND))
+            return Scene(
+                shape, camera, material, lit, data.get("background", DEFAULT_BACKGROUND), data.get("shadows", False)
+            )
 
     def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
         value = data.get(key, {})
@@ -187,7 +190,9 @@ def dumps(scene: Scene | Surface) -> str:
     if camera is not None:
         data["camera"] = {k: v for k, v in dataclasses.asdict(camera).items() if v is not None}
     data["material"] = dataclasses.asdict(scene.material)
-    data["lights"] = [dataclasses.asdict(light) for light in scene.lights]
+    if scene.shadows:
+        data["shadows"] = True
+    data["lights"] = [{k: v for k, v in dataclasses.asdict(light).items() if v is not None} for light in scene.lights]
     return tomli_w.dumps(data)
 
 

@@ -31,20 +31,24 @@ def color(values: Iterable[float], what: str) -> Color:
 
 @dataclass(frozen=True, slots=True)
 class Light:
-    """A light far away.
+    """A light, far away or at a place.
 
     Attributes:
-        direction: from the surface towards the light; with ``headlight`` in camera coordinates (right, up, back).
+        direction: from the surface towards a light far away.
         color: its colour and strength.
-        headlight: whether it moves with the camera.
+        headlight: whether it moves with the camera: direction and position are then right, up and back from it.
+        position: where the light is; None for one far away.
     """
 
     direction: Vector = (-0.45, 0.7, 0.75)
     color: Color = (1.0, 1.0, 1.0)
     headlight: bool = True
+    position: Vector | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "direction", vector(self.direction, "a light's direction", ParameterError))
+        if self.position is not None:
+            object.__setattr__(self, "position", vector(self.position, "a light's position", ParameterError))
         object.__setattr__(self, "color", color(self.color, "a light's colour"))
         if max(map(abs, self.direction)) < SHORTEST:
             raise ParameterError("a light's direction must not be zero")

@@ -23,6 +23,7 @@ class Scene:
         material: its colours and reflectance.
         lights: where the light comes from.
         background: linear RGB behind everything.
+        shadows: whether the lights throw shadows.
 
     Example:
         >>> import zeroset as zs
@@ -36,12 +37,15 @@ class Scene:
     material: Material = field(default_factory=Material)
     lights: tuple[Light, ...] = DEFAULT_LIGHTS
     background: Color = DEFAULT_BACKGROUND
+    shadows: bool = False
 
     def __post_init__(self) -> None:
         if not isinstance(self.surface, Surface):
             raise ParameterError(f"a scene's surface must be a Surface, not a {type(self.surface).__name__}")
         if not isinstance(self.material, Material):
             raise ParameterError(f"a scene's material must be a Material, not {self.material!r}")
+        if not isinstance(self.shadows, bool):
+            raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
         lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
         for light in lights:
             if not isinstance(light, Light):

@@ -1,0 +1,58 @@
+"""Shadows: one search a lit point and light, from the light to the point (SN10 section 5.2, K09 section 6.2).
+
+The search comes from the light, so nothing has to be moved off the surface by hand: it ends a little before the point,
+and the first thing that it meets on the way is in the light's path. Finding that there is something is all that is
+wanted, so the tolerance may be far coarser than the picture's. A point is lit where the way is proven to be free.
+"""
+
+from __future__ import annotations
+
+from zeroset.kernel import F32, U32, Kernel, KernelBuilder, constant, load, store
+from zeroset.rendering.buffers import LIT, NORMAL
+from zeroset.rendering.layout import pixel_coordinates
+from zeroset.rendering.view import pixel_ray
+from zeroset.scene.clip import clip
+from zeroset.shade.reflectance import dot
+from zeroset.solve.field import Field, Lowered, Ray
+from zeroset.solve.problem import Problem
+from zeroset.solve.search import search
+from zeroset.solve.status import MISS
+from zeroset.solve.systems import automatic_system
+from zeroset.solve.walk import Striding
+
+CLEAR = 2.0
+"""Tolerances before the point at which the search ends."""
+
+
+def shadow_kernel(field: Field, offset: bool, kind: str) -> Kernel:
+    """One light; sets the light's ``bit`` of each point that it reaches.
+
+    Uniforms beside the frame's own: ``light_x``, ``light_y``, ``light_z``, ``light_w``, which are the light's place with w = 1,
+    or with w = 0 a way towards it that leads out of the bounds from anywhere inside; ``shadow_tolerance``, a length; ``bit``.
+    """
+    with KernelBuilder("shadow") as builder:
+        lane = builder.index()
+        lowered = Lowered(field, builder, offset=offset)
+        ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
+        t = load(builder.buffer("t", F32), lane)
+        point = [t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
+        place, near = [builder.uniform(f"light_{axis}", F32) for axis in "xyz"], builder.uniform("light_w", F32)
+        toward = [p - x * near for p, x in zip(place, point, strict=True)]
+
+        normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
+        # A side that is turned away from the light is dark by itself; a point without a normal faces everything.
+        turned = dot(normal, toward) * dot(normal, ray.direction) > 0.0
+        wanted = load(builder.buffer("status", U32), lane).ne(MISS) & ~turned
+
+        length = dot(toward, toward).maximum(1e-30).sqrt()
+        tolerance = builder.uniform("shadow_tolerance", F32) / length
+        way = Ray(tuple(x + v for x, v in zip(point, toward, strict=True)), tuple(-v for v in toward))
+        start, end = clip(builder, kind, way.origin, way.direction)
+        start, end = start.maximum(0.0), end.minimum(1.0 - tolerance * CLEAR)
+        problem = Problem(lowered, way, start, end, tolerance, (end - start) * 0.125)
+        answer = search(problem, automatic_system(field, problem.fmt), Striding(), wanted)
+
+        lit = builder.buffer(LIT, U32, writable=True)
+        reached = (wanted & answer.status.eq(MISS)).select(builder.uniform("bit", U32), constant(0, U32))
+        store(lit, lane, load(lit, lane) | reached)
+    return builder.kernel
