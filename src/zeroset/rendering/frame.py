@@ -10,7 +10,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,9 +19,10 @@ import numpy.typing as npt
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import U32
+from zeroset.rendering.bounce import Bounces
 from zeroset.rendering.buffers import COUNTERS, FIELDS, LIT, PICTURE
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import Lighting
+from zeroset.rendering.shading import Illumination, Lighting
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device
 from zeroset.scene.bounds import bounds_kind
@@ -95,9 +96,14 @@ class Frame:
         self.layout = layout
         self.device = device
         self.lock = threading.Lock()
-        self._tracer = Tracer(surface, method, device, pixels=True, shadows=lighting.shadows)
+        optics = lighting.optics
+        self._tracer = Tracer(surface, method, device, True, shadows=lighting.shadows, ends=optics is not None)
         self._shader = f"shade {lighting}"
-        self._tracer.add(self._shader, shader)
+        self._bounces: Bounces | None = None
+        if optics is None:
+            self._tracer.add(self._shader, shader)
+        else:
+            self._bounces = Bounces(self._tracer, surface, method, optics, layout, device)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
         self.picture = device.allocate(U32, layout.width * layout.height)
@@ -119,7 +125,7 @@ class Frame:
         thin: bool,
         progress: Progress | None = None,
         draft: bool = False,
-        lights: Iterable[Mapping[str, float]] = (),
+        light: Illumination | None = None,
     ) -> GBuffer:
         """Run the passes; gives the outputs, which a GPU may still be working on.
 
@@ -129,7 +135,7 @@ class Frame:
             thin: whether to draw thin parts.
             progress: told the share that is done.
             draft: leave out second looks and thin parts, which some pixels need and every picture can do without.
-            lights: the shadow pass's uniforms for each light, where there are shadows.
+            light: what shadows and rays beyond the first hit need.
         """
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
@@ -148,9 +154,12 @@ class Frame:
             self._tracer.second_look(surface, uniforms, bound)
         if thin and not draft:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
-        if LIT in self._buffers:
-            self._tracer.shadows(lights, uniforms, bound)
-        self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
+        if self._bounces is not None and light is not None:
+            self._bounces.run(uniforms, bound, self.picture, light)
+        else:
+            if light is not None and LIT in self._buffers:
+                self._tracer.shadows(light.shadows, uniforms, bound)
+            self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
         self.device.submit()
         outputs = GBuffer(
             self.layout, self.device, {PICTURE: self.picture} | {name: self._buffers[name] for name in FIELDS}

@@ -8,7 +8,7 @@ from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, if_, lift, store
-from zeroset.rendering.buffers import COUNTERS, FIELDS, NORMAL, SECOND
+from zeroset.rendering.buffers import COUNTERS, END, FIELDS, NORMAL, SECOND
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.problem import Answer
 from zeroset.solve.status import MISS, UNRESOLVED
@@ -29,23 +29,36 @@ def gradient_at(lowered: Lowered, point: Sequence[Value]) -> tuple[Value, Value,
     return a * inverse, b * inverse, c * inverse
 
 
-def write(builder: KernelBuilder, lowered: Lowered, lane: Value, ray: Ray, answer: Answer) -> None:
-    """Store an answer, with the normal where something was found."""
-    buffers = {name: builder.buffer(name, type_, writable=True) for name, type_ in FIELDS.items()}
+def facing_back(lowered: Lowered, ray: Ray, answer: Answer) -> tuple[Value, ...]:
+    """The normal of what was found, f32.
 
-    def at_hit() -> tuple[Value, ...]:
-        point = [answer.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
-        normal = gradient_at(lowered, point)
-        # Beside an edge the gradient is mostly rounding; the side that the ray comes from has been proven.
-        along = sum((n * d for n, d in zip(normal, ray.direction, strict=True)), start=lift(0.0, lowered.type))
-        wrong = along * answer.side > 0.0
-        return tuple(wrong.select(-n, n).convert(F32) for n in normal)
+    Beside an edge the gradient is mostly rounding; it is turned to the side that the ray was proven to come from.
+    """
+    point = [answer.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
+    normal = gradient_at(lowered, point)
+    along = sum((n * d for n, d in zip(normal, ray.direction, strict=True)), start=lift(0.0, lowered.type))
+    wrong = along * answer.side > 0.0
+    return tuple(wrong.select(-n, n).convert(F32) for n in normal)
+
+
+def behind(answer: Answer) -> Value:
+    """Where a search that goes on along the same ray starts, f32: the find may lie at its end, so a hair later."""
+    end = answer.end.convert(F32)
+    return abs(end).fma(2.0**-22, end)
+
+
+def write(builder: KernelBuilder, lowered: Lowered, lane: Value, ray: Ray, answer: Answer, ends: bool = False) -> None:
+    """Store an answer, with the normal where something was found; ``ends``: and what lies around it."""
+    if ends:
+        for name, value in zip(END, (answer.clear.convert(F32), behind(answer)), strict=True):
+            store(builder.buffer(name, F32, writable=True), lane, value)
+    buffers = {name: builder.buffer(name, type_, writable=True) for name, type_ in FIELDS.items()}
 
     def nowhere() -> tuple[float, ...]:
         return (0.0, 0.0, 0.0)
 
     found = answer.status.ne(MISS)
-    for name, value in zip(NORMAL, if_(found, at_hit, nowhere), strict=True):
+    for name, value in zip(NORMAL, if_(found, lambda: facing_back(lowered, ray, answer), nowhere), strict=True):
         store(buffers[name], lane, value)
     store(buffers["t"], lane, found.select(answer.t, 0.0).convert(F32))
     store(buffers["status"], lane, answer.status)

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, load, store, while_
 from zeroset.rendering.buffers import FROM, NOTHING, ONWARD, SECOND
-from zeroset.rendering.gbuffer import ask_second_look, write
+from zeroset.rendering.gbuffer import ask_second_look, behind, write
 from zeroset.rendering.primary import EMPTY_TILE, FINER, camera_ray, given_ray, problem_on, t_range
 from zeroset.solve.field import Field, Lowered, Ray
 from zeroset.solve.method import Method
@@ -89,7 +89,5 @@ def beyond(problem: Problem, trace: Callable[[Problem], Answer], start: Value) -
 
 
 def _go_on(builder: KernelBuilder, lane: Value, answer: Answer) -> None:
-    """Say where the next layer starts: behind the find, by an f32's resolution at least."""
-    end = answer.end.convert(F32)
-    onward = abs(end).fma(2.0**-22, end)
-    store(builder.buffer(ONWARD, F32, writable=True), lane, answer.status.eq(MISS).select(DONE, onward))
+    """Say where the next layer starts."""
+    store(builder.buffer(ONWARD, F32, writable=True), lane, answer.status.eq(MISS).select(DONE, behind(answer)))

@@ -60,8 +60,20 @@ def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
     return builder.uniform("near", F32), builder.uniform("far", F32)
 
 
-def trace_kernel(field: Field, method: Method, kind: str, pixels: bool, beams: bool, second: bool) -> Kernel:
-    """One search a ray; ``beams``: it starts where its tile's beam ended; ``second``: it may ask for a second look."""
+def trace_kernel(
+    field: Field, method: Method, kind: str, pixels: bool, beams: bool, second: bool, ends: bool = False
+) -> Kernel:
+    """One search a ray.
+
+    Args:
+        field: f.
+        method: how to search.
+        kind: of bounds.
+        pixels: whether rays are the camera's.
+        beams: whether a ray starts where its tile's beam ended.
+        second: whether it may ask for a second look.
+        ends: whether what lies around a find is kept, for rays that go on.
+    """
     with KernelBuilder("primary" if pixels else "cast") as builder:
         lane = builder.index() + builder.uniform("first", U32)
         lowered = Lowered(field, builder, offset=method.offset != 0.0)
@@ -73,7 +85,7 @@ def trace_kernel(field: Field, method: Method, kind: str, pixels: bool, beams: b
             near = load(builder.buffer("tile_start", F32), tile)
             step = load(builder.buffer("tile_step", F32), tile)
         answer = method.trace(problem_on(builder, lowered, kind, ray, near, far, step))
-        write(builder, lowered, lane, ray, answer)
+        write(builder, lowered, lane, ray, answer, ends)
         if second:
             ask_second_look(builder, lane, answer)
         if beams:
@@ -81,7 +93,7 @@ def trace_kernel(field: Field, method: Method, kind: str, pixels: bool, beams: b
     return builder.kernel
 
 
-def second_kernel(field: Field, offset: bool, kind: str, pixels: bool) -> Kernel:
+def second_kernel(field: Field, offset: bool, kind: str, pixels: bool, ends: bool = False) -> Kernel:
     """The rays on the list again, in f64."""
     with KernelBuilder("second") as builder:
         place = builder.index()
@@ -99,7 +111,7 @@ def second_kernel(field: Field, offset: bool, kind: str, pixels: bool) -> Kernel
         answer = search(problem, automatic_system(field, problem.fmt), Striding())
         # Even where it stays unresolved, f64 comes closer to a double root than f32 could see.
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
-        write(builder, lowered, lane, exact, replace(answer, steps=spent))
+        write(builder, lowered, lane, exact, replace(answer, steps=spent), ends)
     return builder.kernel
 
 

@@ -10,14 +10,16 @@ import numpy as np
 
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.rendering.bands import Assembled, bands, fits
+from zeroset.rendering.bounce import MOST_DEEP
 from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import Lighting, shading_uniforms, shadow_uniforms
+from zeroset.rendering.shading import Illumination, Lighting, shading_uniforms
 from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, bounds_uniforms, number
 from zeroset.scene.camera import Camera, Rays, camera_uniforms, parse_camera
+from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene, as_scene
 from zeroset.scene.surface import Surface
@@ -48,6 +50,8 @@ def render(
     draft: bool = False,
     shadows: bool | None = None,
     shadow_tolerance: float | None = None,
+    environment: Environment | str | None = None,
+    depth: int | None = None,
     progress: Progress | None = None,
 ) -> Image:
     """Draw a surface.
@@ -67,6 +71,9 @@ def render(
         draft: leave out thin parts, and second looks at what f32 left unresolved: the picture of a window that moves.
         shadows: whether the lights throw shadows; None takes the scene's own.
         shadow_tolerance: world length to which shadows are found; None takes 2^-11 of the bounds' extent.
+        environment: what is seen all around; None takes the scene's own.
+        depth: how many surfaces a ray may meet after the first one, 0 to 32; None takes 6 where surfaces mirror or
+            bend light, and 3 (four layers in all) where it only passes through.
         progress: called now and then with the share that is done, from 0 to 1.
 
     Returns:
@@ -88,6 +95,7 @@ def render(
         lights=scene.lights if lights is None else tuple(lights),
         background=scene.background if background is None else background,
         shadows=scene.shadows if shadows is None else shadows,
+        environment=scene.environment if environment is None else as_environment(environment),
     )
     shown, lit = scene.surface, scene.lights
     layout = _layout(size)
@@ -95,7 +103,7 @@ def render(
     chosen.check(shown.field)
     shown.check_work()
     target = get_device(device)
-    whole, lighting = fits(layout, target), Lighting.of(lit, scene.shadows)
+    whole, lighting = fits(layout, target), Lighting.of(scene)
     # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, lighting, layout, target, draft) if whole else None
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
@@ -103,11 +111,13 @@ def render(
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
     uniforms |= shading_uniforms(scene.material, lit, scene.background, rays)
     coarse = shadow_length(shadow_tolerance, shown.fitted)
-    dark = shadow_uniforms(lit, rays, shown.fitted, coarse) if scene.shadows else []
+    light = None
+    if scene.shadows or lighting.optics is not None:
+        light = Illumination.of(scene, rays, coarse, _depth(depth, lighting))
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
-            outputs = frame.draw(shown, uniforms, thin, progress, draft, dark)
+            outputs = frame.draw(shown, uniforms, thin, progress, draft, light)
     else:
         outputs = Assembled(layout)
         parts = tuple(bands(layout, target))
@@ -115,7 +125,7 @@ def render(
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
             part = frame_for(shown, chosen, lighting, band.layout, target, draft)
             with part.lock:
-                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft, dark))
+                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft, light))
     return Image((layout.width, layout.height), outputs, chosen.certified)
 
 
@@ -149,13 +159,23 @@ def world_tolerance(value: float | None, bounds: Bounds) -> float:
 
 
 def shadow_length(value: float | None, bounds: Bounds) -> float:
-    """The shadows' tolerance that was asked for, or the default; raises ``ParameterError`` for one that is no length."""
+    """The shadows' tolerance that was asked for, or the default; raises ``ParameterError`` for no length."""
     if value is None:
         return bounds.extent * 2.0**-11
     length = number(value, "the shadow tolerance", ParameterError)
     if not length >= SMALLEST:
         raise ParameterError(f"the shadow tolerance must be at least {SMALLEST:g}, not {value!r}")
     return length
+
+
+def _depth(value: int | None, lighting: Lighting) -> int:
+    """How many surfaces a ray may meet after the first; raises ``ParameterError`` for what is no such number."""
+    optics = lighting.optics
+    if value is None:
+        return 6 if optics is not None and (optics.mirror or optics.bends) else 3
+    if not (isinstance(value, int) and 0 <= value <= MOST_DEEP):
+        raise ParameterError(f"the depth must be a whole number from 0 to {MOST_DEEP}, not {value!r}")
+    return value
 
 
 def frame_uniforms(surface: Surface, method: Method, rays: Rays, layout: Layout, tolerance: float) -> dict[str, float]:

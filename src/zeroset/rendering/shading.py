@@ -11,8 +11,38 @@ import numpy.typing as npt
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Rays
 from zeroset.scene.light import Color, Light, Material
+from zeroset.scene.scene import Scene
 
 LIGHT = ("x", "y", "z", "r", "g", "b")
+NUMBERS = ("ambient", "diffuse", "specular", "shininess", "opacity", "reflectance", "ior")
+
+
+@dataclass(frozen=True, slots=True)
+class Optics:
+    """What of materials and surroundings shapes the kernels of rays beyond the first hit.
+
+    Attributes:
+        through: whether light passes through surfaces.
+        bends: whether it is bent there.
+        mirror: whether surfaces mirror.
+        sky: whether the surroundings are a cube map.
+        shadows: whether lights throw shadows.
+    """
+
+    through: bool
+    bends: bool
+    mirror: bool
+    sky: bool
+    shadows: bool
+
+    @classmethod
+    def of(cls, scene: Scene) -> Optics | None:
+        """What a scene asks for; None where the first hit is all."""
+        material = scene.material
+        through, mirror = material.opacity < 1, material.reflectance > 0
+        if not (through or mirror or scene.environment):
+            return None
+        return cls(through, through and material.ior != 1, mirror, scene.environment is not None, scene.shadows)
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,15 +52,53 @@ class Lighting:
     Attributes:
         kinds: a letter for each: ``d`` far away in a direction, ``p`` at a place.
         shadows: whether they throw shadows.
+        optics: where rays go on beyond the first hit; None where they do not.
     """
 
     kinds: str
     shadows: bool = False
 
+    optics: Optics | None = None
+
     @classmethod
-    def of(cls, lights: Sequence[Light], shadows: bool) -> Lighting:
+    def of(cls, scene: Scene) -> Lighting:
         """The lighting of a scene."""
-        return cls("".join("d" if light.position is None else "p" for light in lights), shadows)
+        optics = Optics.of(scene)
+        if optics is not None:
+            # There the lights are data.
+            return cls("", False, optics)
+        return cls("".join("d" if light.position is None else "p" for light in scene.lights), scene.shadows)
+
+
+@dataclass(frozen=True, slots=True)
+class Illumination:
+    """The numbers of a scene's light that are no plain uniforms.
+
+    Attributes:
+        shadows: the shadow pass's uniforms for each light; empty where there are no shadows.
+        lights: eight numbers for each light, for rays beyond the first hit.
+        texels: the cube map all around, or None.
+        tolerance: world length to which shadows are found.
+        depth: how many surfaces a ray may meet after the first.
+    """
+
+    shadows: tuple[dict[str, float], ...]
+    lights: npt.NDArray[np.float32]
+    texels: npt.NDArray[np.float32] | None
+    tolerance: float
+    depth: int
+
+    @classmethod
+    def of(cls, scene: Scene, rays: Rays, tolerance: float, depth: int) -> Illumination:
+        """The light of a scene that is seen along a camera's rays."""
+        places = shadow_uniforms(scene.lights, rays, scene.surface.fitted, tolerance)
+        rows = [
+            [*(place[f"light_{axis}"] for axis in "xyzw"), *light.color, 0.0]
+            for place, light in zip(places, scene.lights, strict=True)
+        ]
+        lights = np.asarray(rows, np.float32).reshape(-1)
+        texels = None if scene.environment is None else scene.environment.texels()
+        return cls(tuple(places) if scene.shadows else (), lights, texels, tolerance, depth)
 
 
 def srgb(linear: float) -> float:
@@ -45,7 +113,8 @@ def shading_uniforms(material: Material, lights: Sequence[Light], background: Co
         f"{side}_{c}": v for side in ("front", "back") for c, v in zip("rgb", getattr(material, side), strict=True)
     }
     named |= {f"background_{c}": srgb(v) for c, v in zip("rgb", background, strict=True)}
-    named |= {name: getattr(material, name) for name in ("ambient", "diffuse", "specular", "shininess")}
+    named |= {f"sky_{c}": v for c, v in zip("rgb", background, strict=True)}
+    named |= {name: getattr(material, name) for name in NUMBERS}
     for i, light in enumerate(lights):
         named |= {f"light{i}_{k}": v for k, v in zip(LIGHT, (*_world(light, rays), *light.color), strict=True)}
     return named

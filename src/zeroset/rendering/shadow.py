@@ -27,8 +27,8 @@ CLEAR = 2.0
 def shadow_kernel(field: Field, offset: bool, kind: str) -> Kernel:
     """One light; sets the light's ``bit`` of each point that it reaches.
 
-    Uniforms beside the frame's own: ``light_x``, ``light_y``, ``light_z``, ``light_w``, which are the light's place with w = 1,
-    or with w = 0 a way towards it that leads out of the bounds from anywhere inside; ``shadow_tolerance``, a length; ``bit``.
+    Uniforms beside the frame's own: ``light_x``, ``light_y``, ``light_z``, ``light_w``: the light's place with w = 1,
+    with w = 0 a way towards it that leads out of the bounds from anywhere; ``shadow_tolerance``, a length; ``bit``.
     """
     with KernelBuilder("shadow") as builder:
         lane = builder.index()

@@ -43,7 +43,7 @@ class _Level:
         return self.pick((a, b, c))
 
 
-def thin_kernel(field: Field, offset: bool, kind: str) -> Kernel:
+def thin_kernel(field: Field, offset: bool, kind: str, ends: bool = False) -> Kernel:
     """One run; the uniform ``level`` says on what."""
     with KernelBuilder("thin") as builder:
         index = builder.index()
@@ -73,11 +73,11 @@ def thin_kernel(field: Field, offset: bool, kind: str) -> Kernel:
         marked = load(buffers["block_missed"], lane >> 4).ne(0)
         wanted = at.pick((marked, marked & missed, marked))
         thin = find_thin(patch, wanted.select(start, EMPTY_TILE), t_range(builder)[1], step, finest)
-        _record(builder, at, lowered, lane, thin)
+        _record(builder, at, lowered, lane, thin, ends)
     return builder.kernel
 
 
-def _record(builder: KernelBuilder, at: _Level, lowered: Lowered, lane: Value, thin: Thin) -> None:
+def _record(builder: KernelBuilder, at: _Level, lowered: Lowered, lane: Value, thin: Thin, ends: bool) -> None:
     """Put what may hold something thin on the next list, or draw it."""
     counters = builder.buffer(COUNTERS, U32, writable=True)
     t = builder.buffer("t", FIELDS["t"], writable=True)
@@ -94,7 +94,7 @@ def _record(builder: KernelBuilder, at: _Level, lowered: Lowered, lane: Value, t
         # Several parts of a pixel may come here: they all write the same, which is the pixel's.
         where = load(t, lane)
         answer = Answer(where, constant(UNRESOLVED, U32), constant(1, U32), where, constant(0.0, F32), where)
-        write(builder, lowered, lane, camera_ray(builder, lane), answer)
+        write(builder, lowered, lane, camera_ray(builder, lane), answer, ends)
 
     def found() -> None:
         if_(at.level.eq(BLOCKS), block)

@@ -14,7 +14,7 @@ import numpy as np
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, FROM, LIT, NOTHING, ONWARD, SECOND, THIN
+from zeroset.rendering.buffers import BLOCK, COUNTERS, END, FIELDS, FROM, LIT, NOTHING, ONWARD, SECOND, THIN
 from zeroset.rendering.layout import TILE
 from zeroset.rendering.values import Arrays, parameter_uniforms
 from zeroset.runtime import Counted, Device, Program
@@ -42,6 +42,7 @@ class Tracer:
         device: where.
         pixels: whether the rays are a camera's, one a pixel, or a caller's.
         shadows: whether there is a pass for what is in the lights' path.
+        ends: whether what lies around each find is kept, for rays that go on.
         layered: whether each run of the first look finds what comes behind the last run's finds (``layers``).
     """
 
@@ -53,16 +54,20 @@ class Tracer:
         pixels: bool,
         layered: bool = False,
         shadows: bool = False,
+        ends: bool = False,
     ) -> None:
         self._layered = layered
         self._shadows = shadows
+        self._ends = ends
         self._method = method
         self._device = device
         self.certified = method.certified
         self.beams = pixels and method.certified and not layered
         self._second = method.certified and device.supports(F64)
         self._arrays = Arrays(device)
-        self._key = f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels} {layered}"
+        self._key = (
+            f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels} {layered} {ends}"
+        )
         self._builders = self._kernels(surface, pixels)
         self._shared: dict[str, Callable[[], Kernel]] = {}
         self._programs: dict[str, Program] = {}
@@ -71,7 +76,7 @@ class Tracer:
 
     def _kernels(self, surface: Surface, pixels: bool) -> dict[str, Callable[[], Kernel]]:
         field, kind, method = surface.field, bounds_kind(surface.bounds), self._method
-        offset = method.offset != 0.0
+        offset, ends = method.offset != 0.0, self._ends
 
         # Imported where they are traced: a picture whose kernels come from the cache loads no number system at all.
         def first() -> Kernel:
@@ -81,7 +86,7 @@ class Tracer:
                 return layer_kernel(field, method, kind, pixels, self._second)
             from zeroset.rendering.primary import trace_kernel
 
-            return trace_kernel(field, method, kind, pixels, self.beams, self._second)
+            return trace_kernel(field, method, kind, pixels, self.beams, self._second, ends)
 
         def second() -> Kernel:
             if self._layered:
@@ -90,7 +95,7 @@ class Tracer:
                 return second_layer_kernel(field, offset, kind, pixels)
             from zeroset.rendering.primary import second_kernel
 
-            return second_kernel(field, offset, kind, pixels)
+            return second_kernel(field, offset, kind, pixels, ends)
 
         def beams() -> Kernel:
             from zeroset.rendering.primary import beam_kernel
@@ -100,7 +105,7 @@ class Tracer:
         def thin() -> Kernel:
             from zeroset.rendering.thin import thin_kernel
 
-            return thin_kernel(field, offset, kind)
+            return thin_kernel(field, offset, kind, ends)
 
         def shadow() -> Kernel:
             from zeroset.rendering.shadow import shadow_kernel
@@ -172,6 +177,8 @@ class Tracer:
         wanted = ({} if self._layered else FIELDS) | (SECOND if self._second else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, 3)
+        if self._ends:
+            made |= {name: self._device.allocate(F32, rays) for name in END}
         if self._shadows:
             made[LIT] = self._device.allocate(U32, rays)
         if self.beams:

@@ -7,6 +7,7 @@ Every key is optional but ``formula``:
     bounds = 3.0                                    # or {center, radius}, or {min, max}
     background = [1.0, 1.0, 1.0]
     shadows = true
+    environment = "sky"                             # or "room", or a picture's file name
     params = {a = 5.0}
     camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
     material = {front = [0.9, 0.5, 0.1], shininess = 40}
@@ -27,11 +28,12 @@ from typing import Any
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
 from zeroset.scene.bounds import Ball, Bounds, parse_bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
 from zeroset.scene.scene import MOST_LIGHTS, Scene, as_scene
 from zeroset.scene.surface import Surface, surface
 
-KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights", "shadows")
+KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights", "shadows", "environment")
 LARGEST = 4_000_000
 """Bytes of a scene file."""
 
@@ -122,10 +124,21 @@ class _Reader:
             shape = dataclasses.replace(shape, bounds=parse_bounds(data.get("bounds")))
         camera = None if "camera" not in data else self.build(Camera, data["camera"], "camera")
         material = self.build(Material, data.get("material", {}), "material")
+        around = data.get("environment")
+        if isinstance(around, Mapping):
+            around = self.build(Environment, around, "environment")
+        with _placing(self, "environment"):
+            around = as_environment(around)
         lit = DEFAULT_LIGHTS if lights is None else tuple(self.build(Light, light, "lights") for light in lights)
         with _placing(self, "lights" if len(lit) > MOST_LIGHTS else "background"):
             return Scene(
-                shape, camera, material, lit, data.get("background", DEFAULT_BACKGROUND), data.get("shadows", False)
+                shape,
+                camera,
+                material,
+                lit,
+                data.get("background", DEFAULT_BACKGROUND),
+                data.get("shadows", False),
+                around,
             )
 
     def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
@@ -192,6 +205,9 @@ def dumps(scene: Scene | Surface) -> str:
     data["material"] = dataclasses.asdict(scene.material)
     if scene.shadows:
         data["shadows"] = True
+    if scene.environment is not None:
+        around = scene.environment
+        data["environment"] = around.source if around.strength == 1.0 else dataclasses.asdict(around)
     data["lights"] = [{k: v for k, v in dataclasses.asdict(light).items() if v is not None} for light in scene.lights]
     return tomli_w.dumps(data)
 

@@ -65,6 +65,9 @@ class Material:
         diffuse: share that follows Lambert's cosine.
         specular: strength of the highlight, which has the light's colour.
         shininess: exponent of the highlight; larger is smaller and sharper.
+        opacity: 1 for solid; below, what lies behind is seen through it.
+        reflectance: share of the light that is mirrored.
+        ior: index of refraction of the inside, where f < 0, against the outside; 1 bends nothing.
     """
 
     front: Color = (0.95, 0.52, 0.12)
@@ -73,17 +76,25 @@ class Material:
     diffuse: float = 0.80
     specular: float = 0.35
     shininess: float = 40.0
+    opacity: float = 1.0
+    reflectance: float = 0.0
+    ior: float = 1.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "front", color(self.front, "a material's front colour"))
         object.__setattr__(self, "back", color(self.back, "a material's back colour"))
-        for name in ("ambient", "diffuse", "specular", "shininess"):
+        for name in ("ambient", "diffuse", "specular", "shininess", "opacity", "reflectance", "ior"):
             object.__setattr__(self, name, number(getattr(self, name), f"a material's {name}", ParameterError))
         for name in ("ambient", "diffuse", "specular"):
             if not 0 <= getattr(self, name) <= BRIGHTEST:
                 raise ParameterError(f"a material's {name} must not be negative, or above {BRIGHTEST:g}")
         if not 0 < self.shininess <= 10000:
             raise ParameterError("a material's shininess must be above 0 and at most 10000")
+        for name in ("opacity", "reflectance"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise ParameterError(f"a material's {name} must be from 0 to 1, not {getattr(self, name)!r}")
+        if not 0.1 <= self.ior <= 10:
+            raise ParameterError(f"a material's index of refraction must be from 0.1 to 10, not {self.ior!r}")
 
 
 DEFAULT_LIGHTS = (Light(), Light(direction=(0.8, 0.1, 0.55), color=(0.22, 0.24, 0.30)))

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.scene.camera import Camera
+from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
 from zeroset.scene.surface import Surface, surface
 
@@ -24,6 +25,8 @@ class Scene:
         lights: where the light comes from.
         background: linear RGB behind everything.
         shadows: whether the lights throw shadows.
+        environment: what is seen all around instead of the background: an Environment, ``"sky"``, ``"room"`` or the
+            file name of a picture.
 
     Example:
         >>> import zeroset as zs
@@ -38,6 +41,7 @@ class Scene:
     lights: tuple[Light, ...] = DEFAULT_LIGHTS
     background: Color = DEFAULT_BACKGROUND
     shadows: bool = False
+    environment: Environment | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.surface, Surface):
@@ -46,6 +50,7 @@ class Scene:
             raise ParameterError(f"a scene's material must be a Material, not {self.material!r}")
         if not isinstance(self.shadows, bool):
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
+        object.__setattr__(self, "environment", as_environment(self.environment))
         lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
         for light in lights:
             if not isinstance(light, Light):

@@ -8,6 +8,7 @@ viewer, so that isolated nodes and thin axes stay visible.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from zeroset.kernel import Value
 from zeroset.shade.power import shine
@@ -40,18 +41,48 @@ def blinn_phong(
         toward_eye: unit vector to the viewer.
         lights: for each light its unit direction (3) and colour (3).
     """
+    seen = face(uniform, normal, toward_eye)
+    color = seen.ambient
+    for x, y, z, r, g, b in lights:
+        color = seen.lit(color, (x, y, z), (r, g, b))
+    return color
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """The side of a point that is seen, ready to be lit.
+
+    Attributes:
+        normal: towards the viewer.
+        toward_eye: unit vector to the viewer.
+        base: its colour.
+        ambient: what it shows without any light.
+        uniform: gives the material's numbers by name.
+    """
+
+    normal: Sequence[Value]
+    toward_eye: Sequence[Value]
+    base: Sequence[Value]
+    ambient: Color
+    uniform: Callable[[str], Value]
+
+    def lit(self, color: Sequence[Value], light: Sequence[Value], tint: Sequence[Value]) -> Color:
+        """A colour with one more light, given by its unit direction and its colour."""
+        lambert = dot(self.normal, light).maximum(0.0)
+        half = normalised([a + b for a, b in zip(light, self.toward_eye, strict=True)])
+        shininess, specular, diffuse = (self.uniform(name) for name in ("shininess", "specular", "diffuse"))
+        highlight = (lambert > 0.0).select(shine(dot(self.normal, half), shininess) * specular, 0.0)
+        r, g, b = (c + t * (k * diffuse * lambert + highlight) for c, k, t in zip(color, self.base, tint, strict=True))
+        return r, g, b
+
+
+def face(uniform: Callable[[str], Value], normal: Sequence[Value], toward_eye: Sequence[Value]) -> Face:
+    """The side of a point that the viewer sees; arguments as of ``blinn_phong``."""
     facing = dot(normal, toward_eye)
     singular = dot(normal, normal) < 0.25
     back = facing < 0.0
     n = [singular.select(v, back.select(-x, x)) for x, v in zip(normal, toward_eye, strict=True)]
     base = [back.select(uniform(f"back_{c}"), uniform(f"front_{c}")) for c in "rgb"]
-    ambient, diffuse = uniform("ambient"), uniform("diffuse")
-    specular, shininess = uniform("specular"), uniform("shininess")
-    color = [b * ambient for b in base]
-    for lx, ly, lz, *tint in lights:
-        light = (lx, ly, lz)
-        lambert = dot(n, light).maximum(0.0)
-        half = normalised([a + b for a, b in zip(light, toward_eye, strict=True)])
-        highlight = (lambert > 0.0).select(shine(dot(n, half), shininess) * specular, 0.0)
-        color = [c + t * (b * diffuse * lambert + highlight) for c, b, t in zip(color, base, tint, strict=True)]
-    return color[0], color[1], color[2]
+    ambient = uniform("ambient")
+    r, g, b = (k * ambient for k in base)
+    return Face(n, toward_eye, base, (r, g, b), uniform)

@@ -1,0 +1,126 @@
+"""The passes of rays beyond the first hit: one run for each length of path, on two queues by turns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from zeroset.kernel import Kernel
+from zeroset.kernel.types import F32, U32
+from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, LIGHTS, PICTURE, QUEUED, QUEUEING, TEXELS
+from zeroset.rendering.layout import Layout
+from zeroset.rendering.shading import Illumination, Optics
+from zeroset.rendering.tracer import Tracer
+from zeroset.runtime import Counted, Device
+from zeroset.scene.bounds import bounds_kind
+from zeroset.scene.surface import Surface
+from zeroset.solve.method import Method
+
+WORDS = 12
+MOST_DEEP = 32
+"""Runs in a row: surfaces that one ray may meet after the first."""
+FARTHEST = 1e30
+
+
+class Bounces:
+    """The programs and buffers of one structure's further rays.
+
+    Args:
+        tracer: makes the programs along with its own.
+        surface: what the rays meet.
+        method: of the frame, for its offset.
+        optics: which rays there are.
+        layout: of the frame.
+        device: where.
+    """
+
+    def __init__(
+        self, tracer: Tracer, surface: Surface, method: Method, optics: Optics, layout: Layout, device: Device
+    ) -> None:
+        field, kind, offset = surface.field, bounds_kind(surface.bounds), method.offset != 0.0
+
+        def first() -> Kernel:
+            from zeroset.rendering.paths import first_path_kernel
+
+            return first_path_kernel(field, offset, kind, optics)
+
+        def path() -> Kernel:
+            from zeroset.rendering.paths import path_kernel
+
+            return path_kernel(field, offset, kind, optics)
+
+        def resolve() -> Kernel:
+            from zeroset.rendering.paths import resolve_kernel
+
+            return resolve_kernel()
+
+        own = f"{field.digest} {kind} {offset} {optics}"
+        self._names = f"path_first {own}", f"path {own}", "resolve"
+        for name, build in zip(self._names, (first, path, resolve), strict=True):
+            tracer.add(name, build)
+        self._tracer = tracer
+        self._device = device
+        self._layout = layout
+        # A pixel seldom has more than one ray under way, and almost never more than two.
+        self._capacity = layout.lanes * (2 if (optics.mirror or optics.bends) and optics.through else 1)
+        self._queues = [device.allocate(U32, self._capacity * WORDS) for _ in range(2)]
+        self._sums = device.allocate(U32, layout.lanes * 3)
+        self._counters = device.allocate(U32, MOST_DEEP + 1)
+        self._data: dict[str, tuple[Any, npt.NDArray[np.float32]]] = {}
+
+    def run(
+        self,
+        uniforms: Mapping[str, float],
+        bound: Mapping[str, Any],
+        picture: Any,
+        light: Illumination,
+    ) -> None:
+        """Shade what was found, follow the rays that come of it, and write the picture.
+
+        Args:
+            uniforms: the frame's, the material's and the surroundings'.
+            bound: the frame's buffers, with what the camera's rays have found.
+            picture: where the bytes go.
+            light: the lights, the surroundings, and how far rays are followed.
+        """
+        first, path, resolve = (self._tracer.program(name) for name in self._names)
+        lights, texels, depth = light.lights, light.texels, light.depth
+        sides = {} if texels is None else {"face_side": round((texels.size / 18) ** 0.5)}
+        common = {
+            **uniforms,
+            **sides,
+            "lights": len(lights) // 8,
+            "capacity": self._capacity,
+            "farthest": FARTHEST,
+            "shadow_tolerance": light.tolerance,
+        }
+        buffers = {**bound, ACCUMULATED: self._sums, COUNTERS: self._counters, LIGHTS: self._kept(LIGHTS, lights)}
+        if texels is not None:
+            buffers[TEXELS] = self._kept(TEXELS, texels)
+        self._device.clear(self._sums)
+        self._device.clear(self._counters)
+        here, there = self._queues
+        first.run(
+            self._layout.lanes,
+            {**common, "next": 0, "goes_on": int(depth > 0)},
+            {**buffers, QUEUEING: here},
+        )
+        for level in range(depth):
+            numbers = {**common, "next": level + 1, "goes_on": int(level + 1 < depth)}
+            path.run(Counted(self._counters, level), numbers, {**buffers, QUEUED: here, QUEUEING: there})
+            here, there = there, here
+        resolve.run(self._layout.lanes, common, {**buffers, PICTURE: picture})
+
+    def _kept(self, name: str, values: npt.NDArray[np.float32]) -> Any:
+        """A buffer with these values, written anew where they have changed."""
+        known = self._data.get(name)
+        if known is None or len(known[1]) != len(values):
+            known = self._device.allocate(F32, max(len(values), 1)), values
+            self._device.write(known[0], values)
+        elif known[1] is not values and not np.array_equal(known[1], values):
+            self._device.write(known[0], values)
+        self._data[name] = known[0], values
+        return known[0]
