@@ -19,6 +19,8 @@ from zeroset.errors import ZerosetError
 
 COMMANDS = {
     "render": "Draw a formula, a gallery surface or a scene file.",
+    "view": "Show a surface in a window: turn it, type another formula.",
+    "mesh": "Make triangles of a surface: STL, OBJ, PLY or GLB.",
     "gallery": "List the named surfaces, or draw them all on one sheet.",
     "explain": "Show a formula, its kernels after each pass, and the target code.",
     "bench": "Time the gallery on this machine.",
@@ -59,6 +61,9 @@ def main(args: list[str] | None = None) -> int:
     """Run the command line; gives the exit status."""
     # A command makes many small objects and keeps most to its end: looking for garbage often takes a tenth of its time.
     gc.set_threshold(100_000)
+    # NumPy's linear algebra starts a thread for each core, which for a tenth of a second only waits for work, busily,
+    # while everything else is being loaded. A command has no matrices that are worth it.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         zeroset.main(args, prog_name="zeroset", standalone_mode=False)
         sys.stdout.flush()
@@ -81,7 +86,9 @@ def main(args: list[str] | None = None) -> int:
     return 0
 
 
-_ARGUMENT = re.compile(r"\b(bounds|method|device|up|eye)=(?:'([^']*)'|\"([^\"]*)\"|\(([^)]*)\)|([-+.\deE]*\d))")
+_ARGUMENT = re.compile(
+    r"\b(bounds|method|device|precision|up|eye)=(?:'([^']*)'|\"([^\"]*)\"|\(([^)]*)\)|([-+.\deE]*\d))"
+)
 
 
 def as_options(message: str) -> str:

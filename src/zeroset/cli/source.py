@@ -25,14 +25,14 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 def find_scene(source: str, params: tuple[str, ...] = (), bounds: str | None = None) -> Scene:
     """The scene that a user means: a ``.toml`` file, a gallery name, or else a formula."""
-    values = dict(map(_parameter, params))
+    values = dict(map(read_parameter, params))
     limits = None if bounds is None else read_bounds(bounds)
     if source.endswith(".toml"):
         from zeroset.scene.file import load
 
         return _changed(load(source), values, limits)
-    # A gallery name has only letters, digits and hyphens, and begins with two letters: hardly a formula.
-    if re.fullmatch(r"[a-z]{2,}[a-z0-9]*(-[a-z0-9.]+)*", source) and (named := _named(source, values)) is not None:
+    # A gallery name has only letters, digits and hyphens, and its first part two letters or a digit alone (4-bretzel).
+    if re.fullmatch(r"([a-z]{2,}[a-z0-9]*|\d+-[a-z]{2,})(-[a-z0-9.]+)*", source) and (named := _named(source, values)) is not None:
         return _changed(named, values, limits)
     return Scene(surface(source, values, limits))
 
@@ -56,7 +56,8 @@ def _changed(scene: Scene, values: dict[str, Any], limits: Bounds | None) -> Sce
     return dataclasses.replace(scene, surface=surface(scene.surface, values, limits))
 
 
-def _parameter(text: str) -> tuple[str, Any]:
+def read_parameter(text: str) -> tuple[str, Any]:
+    """``name=number``, or ``name=1,2,3`` for an array."""
     name, equals, value = text.partition("=")
     try:
         if not equals:

@@ -166,3 +166,16 @@ def test_where_it_is(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(sys, "platform", "win32")
     monkeypatch.setenv("LOCALAPPDATA", "/local")
     assert cache_folder() == Path("/local/zeroset/cache")
+
+
+def test_the_folder_is_not_looked_through_at_every_write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    looks = []
+    cache = Cache(tmp_path)
+    monkeypatch.setattr(Cache, "_evict", lambda self: looks.append(1))
+    for n in range(20):
+        cache.put(f"key {n}", compiled())
+    Cache(tmp_path).put("another process", compiled())
+    assert len(looks) == 1
+    os.utime(tmp_path / "swept", (time.time() - 7200,) * 2)
+    cache.put("later", compiled())
+    assert len(looks) == 2

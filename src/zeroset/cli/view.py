@@ -1,0 +1,65 @@
+"""``zeroset view``: a formula, a gallery name or a scene file in a live window."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import replace
+
+import click
+
+from zeroset.cli.source import FormulaCommand, find_scene, read_bounds, read_method, read_parameter, read_size
+from zeroset.errors import UnknownNameError
+from zeroset.scene.scene import Scene
+
+FIRST = "barth-sextic"
+"""What the window shows when nothing is asked for."""
+
+
+@click.command("view", cls=FormulaCommand)
+@click.argument("source", metavar="[FORMULA|NAME|FILE]", default=FIRST, required=False)
+@click.option("-p", "--param", "params", multiple=True, metavar="NAME=VALUE", help="Value of a parameter.")
+@click.option("-b", "--bounds", metavar="R|X0,...,Z1", help="Ball radius, or x0,y0,z0,x1,y1,z1.")
+@click.option("-m", "--method", default="auto", show_default=True, help="Ray method, as for render.")
+@click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
+@click.option("-t", "--tolerance", type=float, help="World length to which roots are found.")
+@click.option("-s", "--size", default="1280x800", show_default=True, help="Size of the window.")
+@click.option("--log", metavar="FILE", help="Write what happens to a file, one JSON object a line.")
+def command(
+    source: str,
+    params: tuple[str, ...],
+    bounds: str | None,
+    method: str,
+    device: str,
+    tolerance: float | None,
+    size: str,
+    log: str | None,
+) -> None:
+    """Show SOURCE in a window: turn it, change its formula, move its parameters."""
+    from zeroset.view.log import Log
+    from zeroset.view.show import start, window
+
+    scene, text = _find(source, params, bounds)
+    state = start(scene, text, read_method(method), device, tolerance)
+    if not window(state, read_size(size), Log(log)):
+        # Something is still being compiled, which cannot be interrupted and which nobody waits for any more.
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(0)
+
+
+def _find(source: str, params: tuple[str, ...], bounds: str | None) -> tuple[Scene, str]:
+    """The scene, and the text for the formula box; single letters without a value become parameters."""
+    from zeroset.view.show import scene_of
+    from zeroset.view.state import BACKGROUND
+
+    try:
+        scene = find_scene(source, params, bounds)
+    except UnknownNameError:
+        from zeroset.view.formula import read
+
+        limits = None if bounds is None else read_bounds(bounds)
+        scene = Scene(read(source, dict(map(read_parameter, params)), bounds=limits).surface)
+    text = scene_of(scene)[1] if scene.surface.name or source.endswith(".toml") else source
+    # A scene file says what lies behind; a formula or a name leaves it to the window.
+    return (scene if source.endswith(".toml") else replace(scene, background=BACKGROUND)), text

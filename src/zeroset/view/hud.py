@@ -1,0 +1,151 @@
+"""What stands on the picture: lines, the legend, numbers, notes, and the list of keys."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+from zeroset.view import theme
+from zeroset.view.controls import Pane
+from zeroset.view.lines import strokes
+from zeroset.view.overlay import HEAT, Legend
+from zeroset.view.panels.context import Context
+from zeroset.view.state import State
+from zeroset.view.widgets import packed
+
+KEYS = (
+    ("left drag", "turn"),
+    ("right or middle drag", "move sideways"),
+    ("wheel", "zoom to the point under the pointer"),
+    ("double click", "turn about that point"),
+    ("R", "back to the first view"),
+    ("F", "fit the bounds into the picture"),
+    ("1 2 3 4 5 6 7", "front, back, right, left, top, bottom, three-quarter"),
+    ("O", "orthographic or perspective"),
+    ("G", "fly: W A S D, Q E, drag to look, Shift is faster; Esc ends it"),
+    ("Space", "play or pause the parameters"),
+    ("H", "this list"),
+)
+SHADE = (0.06, 0.065, 0.08)
+
+
+def draw(state: State, context: Context, pane: Pane) -> None:
+    """Draw all of it."""
+    imgui, session = context.imgui, context.session
+    pen = imgui.get_background_draw_list()
+    pen.push_clip_rect((pane.x, pane.y), (pane.x + pane.width, pane.y + pane.height))
+    if session.picture is not None:
+        if state.axes or state.grid or state.outline:
+            _lines(state, context, pane, pen)
+        if session.picture.legend is not None:
+            _legend(imgui, pen, session.picture.legend, pane)
+        _numbers(state, context, pane, pen)
+    else:
+        _strip(context, pen, session.trouble or "compiling ...", pane.x + 0.5 * pane.width, pane.y + 0.5 * pane.height)
+    _messages(state, context, pane, pen)
+    pen.pop_clip_rect()
+    if state.help:
+        _help(context, pane)
+
+
+def _lines(state: State, context: Context, pane: Pane, pen: Any) -> None:
+    picture = context.session.picture
+    assert picture is not None
+    imgui = context.imgui
+    made, labels = strokes(state, picture, pane.size)
+    for stroke in made:
+        tint = packed(imgui, stroke.color, 0.14 if stroke.hidden else 0.85)
+        points = [(pane.x + float(x), pane.y + float(y)) for x, y in stroke.points]
+        pen.add_polyline(points, tint, stroke.width, 0)
+    for label in labels:
+        pen.add_text((pane.x + label.x + 4, pane.y + label.y - 8), packed(imgui, label.color), label.text)
+
+
+def _legend(imgui: Any, pen: Any, legend: Legend, pane: Pane) -> None:
+    """A bar of the colours with its ends."""
+    width, height = 220.0, 12.0
+    x, y = pane.x + pane.width - width - 24, pane.y + 44
+    pen.add_rect_filled((x - 12, y - 30), (x + width + 12, y + height + 26), packed(imgui, SHADE, 0.82), 6.0)
+    pen.add_text((x, y - 24), packed(imgui, theme.TEXT), legend.title)
+    tints = [tuple(c / 255 for c in color) for color in HEAT] if legend.heat else [(0.16,) * 3, (1.0,) * 3]
+    for i, (left, right) in enumerate(pairwise(tints)):
+        a, b = (x + width * (i + k) / (len(tints) - 1) for k in (0, 1))
+        ends = (packed(imgui, left), packed(imgui, right))
+        pen.add_rect_filled_multi_color((a, y), (b, y + height), ends[0], ends[1], ends[1], ends[0])
+    high = f"{legend.high:.4g}"
+    pen.add_text((x, y + height + 4), packed(imgui, theme.FAINT), f"{legend.low:.4g}")
+    place = x + width - imgui.calc_text_size(high).x
+    pen.add_text((place, y + height + 4), packed(imgui, theme.FAINT), high)
+
+
+def numbers(state: State, context: Context) -> list[tuple[str, theme.Color]]:
+    """What is known of the picture, in words with their colours."""
+    picture = context.session.picture
+    assert picture is not None
+    height, width = picture.depth.shape
+    proof = ("certified", theme.GOOD) if picture.certified else ("not certified", theme.ERROR)
+    parts = [
+        (f"{picture.milliseconds:.1f} ms", theme.TEXT),
+        (f"{width} x {height}", theme.FAINT),
+        (f"{picture.hits:,} hits", theme.FAINT),
+        (f"{picture.unresolved:,} unresolved", theme.FAINT),
+        (picture.device, theme.FAINT),
+        proof,
+    ]
+    return [*parts, ("flying, Esc ends it", theme.ACCENT)] if state.flying else parts
+
+
+def _numbers(state: State, context: Context, pane: Pane, pen: Any) -> None:
+    """A strip along the lower edge."""
+    imgui = context.imgui
+    parts, gap = numbers(state, context), 18.0
+    widths = [imgui.calc_text_size(text).x for text, _ in parts]
+    x, y = pane.x + 14, pane.y + pane.height - 38
+    end = x + sum(widths) + gap * (len(parts) - 1) + 24
+    pen.add_rect_filled((x, y), (end, y + 26), packed(imgui, SHADE, 0.82), 6.0)
+    x += 12
+    for (text, tint), width in zip(parts, widths, strict=True):
+        pen.add_text((x, y + 5), packed(imgui, tint), text)
+        x += width + gap
+
+
+def _messages(state: State, context: Context, pane: Pane, pen: Any) -> None:
+    """Trouble, notes, and a word on an empty picture, above the numbers."""
+    session = context.session
+    picture = session.picture
+    y = pane.y + pane.height - 60
+    if session.trouble and picture is not None:
+        _strip(context, pen, session.trouble, pane.x + 0.5 * pane.width, y, theme.ERROR)
+    elif session.stand_in:
+        _strip(context, pen, session.stand_in, pane.x + 0.5 * pane.width, y, theme.FAINT)
+    elif session.notes.latest:
+        _strip(context, pen, session.notes.latest, pane.x + 0.5 * pane.width, y, theme.TEXT)
+    elif picture is not None and not picture.hits and not session.compiling and not session.drawing:
+        text = "no ray meets a zero of f inside the bounds: F fits the view, Bounds fits the formula"
+        _strip(context, pen, text, pane.x + 0.5 * pane.width, pane.y + 0.5 * pane.height, theme.FAINT)
+
+
+def _strip(context: Context, pen: Any, text: str, x: float, y: float, tint: theme.Color = theme.TEXT) -> None:
+    """Text on a dark strip, its lower edge in the middle of which is at a place."""
+    imgui = context.imgui
+    size = imgui.calc_text_size(text)
+    left, top = x - 0.5 * size.x, y - size.y - 8
+    pen.add_rect_filled((left - 14, top - 8), (left + size.x + 14, top + size.y + 8), packed(imgui, SHADE, 0.9), 6.0)
+    pen.add_text((left, top), packed(imgui, tint), text)
+
+
+def _help(context: Context, pane: Pane) -> None:
+    imgui = context.imgui
+    middle = (pane.x + 0.5 * pane.width, pane.y + 0.5 * pane.height)
+    imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
+    flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_move
+    imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.0)
+    imgui.push_style_var(imgui.StyleVar_.window_rounding, 8.0)
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (22.0, 18.0))
+    imgui.begin("##help", None, flags | imgui.WindowFlags_.no_saved_settings)
+    for keys, meaning in KEYS:
+        imgui.text_colored((*theme.ACCENT, 1.0), keys)
+        imgui.same_line(200.0)
+        imgui.text(meaning)
+    imgui.end()
+    imgui.pop_style_var(3)

@@ -1,0 +1,259 @@
+"""What runs behind a window, whatever draws it: the state, the threads that compile and draw, and what they answer.
+
+``tick`` is called for every frame of the window. It moves what plays, takes pictures that have come, and asks for those
+that are wanted: small ones while something changes, a full one at rest. The last good picture stays until a better one
+is there.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from zeroset.scene.scene import Scene
+from zeroset.view import errands, formula
+from zeroset.view.controls import Controls, Pane
+from zeroset.view.log import Log
+from zeroset.view.notes import Notes
+from zeroset.view.pace import Pace
+from zeroset.view.painting import Picture, Shot, Shown, Wish, compile_and_show, paint
+from zeroset.view.standin import StandIn, slow_to_compile, structure
+from zeroset.view.state import State, advanced
+from zeroset.view.worker import Failed, Newest
+
+DEBOUNCE = 0.15
+"""Seconds without a keystroke before a formula is compiled."""
+REST = 0.15
+"""Seconds without a change before the full picture is drawn."""
+COLUMNS = 42
+"""Characters of a formula that the sidebar shows beside each other."""
+
+
+class Session:
+    """A window's inside.
+
+    Args:
+        state: what to begin with.
+        log: where to write what happens.
+        wake: called, on any thread, when the window should be drawn again.
+
+    Attributes:
+        state: what the user has chosen; the window replaces it.
+        picture: the last good picture.
+        complaint: what is wrong with the formula.
+        trouble: why the picture could not be drawn, or "".
+        times: milliseconds of the latest pictures.
+        notes: messages to the user.
+        clipboard: puts text on the clipboard, and gives whether there is one.
+    """
+
+    def __init__(self, state: State, log: Log, wake: Callable[[], object] = lambda: None) -> None:
+        self.state = state
+        self.log = log
+        self.controls = Controls()
+        self.picture: Picture | None = None
+        self.complaint: formula.Complaint | None = None
+        self.trouble = ""
+        self.times: deque[float] = deque([0.0] * 120, maxlen=120)
+        self.snippet = ""
+        self.clipboard: Callable[[str], bool] = lambda text: False
+        self.size = (1, 1)
+        self.notes = Notes(wake)
+        self._painter: Newest[Shot, Picture] = Newest("painter", paint, wake)
+        self._reader: Newest[formula.Text, formula.Reading] = Newest("reader", formula.read_typed, wake)
+        self._compiler: Newest[Wish, Shown] = Newest("compiler", compile_and_show, wake)
+        self._stand_in = StandIn(wake)
+        self._pace = Pace()
+        self._values = formula.values_of(state.surface)
+        self._text, self._edited, self._shown_text = state.text, 0.0, state.text
+        self._asked_text = state.text
+        self._wanted: Shot | None = None
+        self._changed, self._refined = 0.0, False
+        self._ticked = time.perf_counter()
+        self._told_camera = state.camera
+
+    # ---------------------------------------------------------------- for the window
+
+    @property
+    def compiling(self) -> bool:
+        """Whether a formula is being compiled."""
+        return self._compiler.busy or self._reader.busy
+
+    @property
+    def drawing(self) -> bool:
+        """Whether a picture is being drawn."""
+        return self._painter.busy
+
+    @property
+    def resting(self) -> bool:
+        """Whether nothing is to be done: background work may begin."""
+        return self._refined and not self.drawing and not self.compiling
+
+    @property
+    def stand_in(self) -> str:
+        """Why the CPU draws though the GPU was asked for and is not just being made ready, or ""."""
+        return self._stand_in.trouble
+
+    def handle(self, event: dict[str, Any], pane: Pane) -> None:
+        """Take an event of mouse or keyboard."""
+        self.state = self.controls.handle(event, self.state, pane, self.picture)
+
+    def tick(self, size: tuple[int, int]) -> bool:
+        """Go on by a frame of the window whose picture has so many pixels; gives whether there is more to come soon."""
+        now = time.perf_counter()
+        elapsed, self._ticked = min(now - self._ticked, 0.25), now
+        self.size = size
+        for reading in self._reader.answers():
+            self._take_reading(reading)
+        for shown in self._compiler.answers():
+            self._take_formula(shown)
+        for picture in self._painter.answers():
+            self._take_picture(picture)
+        if not self.state.flying:
+            self.controls.keys.clear()
+        self.state = self.controls.flown(advanced(self.state, elapsed), elapsed)
+        return self.follow()
+
+    def follow(self) -> bool:
+        """Act on the present state; gives whether there is more to come soon.
+
+        ``tick`` does it at the beginning of a frame. Once more after the panels, what they have changed is being drawn
+        while their frame is still on its way to the screen.
+        """
+        now = time.perf_counter()
+        self._do()
+        self._compile(now)
+        self._draw(now)
+        flying = self.state.flying and bool(self.controls.keys)
+        waiting = self.state.text != self._asked_text or not self._refined
+        return self.state.playing or flying or waiting or bool(self.notes.latest)
+
+    def close(self, timeout: float = 1.0) -> bool:
+        """End the threads, after what was to be saved; gives whether each has ended within the time."""
+        self.notes.finish()
+        closed = [self._stand_in.close(timeout)]
+        closed += [worker.close(timeout) for worker in (self._reader, self._compiler, self._painter)]
+        self.log.say("closed")
+        self.log.close()
+        return all(closed)
+
+    # ---------------------------------------------------------------- formulas
+
+    def _compile(self, now: float) -> None:
+        """Compile the text once it has been left alone for a moment."""
+        if self.state.text != self._text:
+            self._text, self._edited = self.state.text, now
+        if self._text != self._asked_text and now - self._edited >= DEBOUNCE:
+            self.read()
+
+    def read(self, refit: bool = False) -> None:
+        """Read the formula in the box, and show it if it is one; ``refit`` looks anew for where it is."""
+        state = self.state
+        self._text = self._asked_text = state.text
+        self._values |= formula.values_of(state.surface)
+        refit = refit or state.refit or formula.differ(self._shown_text, state.text)
+        self._reader.ask(formula.Text(state.text, dict(self._values), state.named, refit))
+
+    def show(self, source: formula.Reading | Scene, refit: bool = False) -> None:
+        """Compile and show what has been read, or a scene whose formula is in the box already."""
+        if isinstance(source, Scene):
+            self._text = self._asked_text = self.state.text
+            self.complaint = None
+        keep = None if refit else self.state.bounds
+        # The first picture of a formula is the CPU's where the GPU would be long in coming.
+        shot = self._shot(True)
+        shot = replace(shot, device="cpu") if slow_to_compile(shot.device) else shot
+        self._compiler.ask(Wish(source, keep, self.state.bounds, shot))
+
+    def _take_reading(self, reading: formula.Reading | Failed[formula.Text]) -> None:
+        """What has become of the text: on to the compiler, or a complaint."""
+        if isinstance(reading, Failed):
+            self._complain(reading.error, reading.text)
+            return
+        self.complaint = None
+        self.show(reading, reading.refit)
+
+    def _take_formula(self, shown: Shown | Failed[Wish]) -> None:
+        if isinstance(shown, Failed):
+            self._complain(shown.error, shown.text)
+            return
+        wish, state = shown.wish, self.state
+        kept = {k: v for k, v in state.surface.params.items() if k in shown.surface.params}
+        typed = not isinstance(wish.source, Scene)
+        surface = shown.surface.with_params(**kept) if typed else shown.surface
+        # Whoever has turned the surface meanwhile keeps the view.
+        still = state.camera == wish.shot.scene.camera or not typed
+        camera = shown.camera if still else state.camera
+        home = shown.camera if shown.camera != wish.shot.scene.camera or not typed else state.home
+        self.state = replace(state, surface=surface, camera=camera, home=home, refit=shown.refit)
+        self._values |= formula.values_of(surface)
+        self.picture, self.trouble = shown.picture, ""
+        self._shown_text = self._asked_text
+        self.log.say(
+            "formula",
+            formula=surface.formula,
+            params=dict(surface.params),
+            bounds=repr(surface.fitted),
+            milliseconds=round((time.perf_counter() - wish.shot.asked) * 1e3, 1),
+        )
+
+    def _complain(self, error: Exception, text: str) -> None:
+        self.complaint = formula.complaint(error, text, COLUMNS)
+        self.log.say("error", text=text)
+
+    # ---------------------------------------------------------------- pictures
+
+    def _shot(self, moving: bool) -> Shot:
+        state = self.state
+        size = self._pace.size(*self.size) if moving else self.size
+        shot = Shot(state.scene, size, state.method, state.device, state.tolerance, state.overlay, moving)
+        # The GPU's compiler would slow down what the CPU is about to draw: it waits until that is there.
+        return self._stand_in.placed(shot, compile=self.resting)
+
+    def _draw(self, now: float) -> None:
+        """Ask for the picture of the present state, if it is another one than was asked for last."""
+        full = self._shot(False)
+        if full != self._wanted:
+            self._wanted, self._changed, self._refined = full, now, False
+            self._painter.ask(self._shot(True))
+        elif not self._refined and now - self._changed >= REST and not self.controls.dragging:
+            self._refined = True
+            self._painter.ask(full)
+            self._tell_camera()
+
+    def _take_picture(self, picture: Picture | Failed[Shot]) -> None:
+        if isinstance(picture, Failed):
+            if picture.text != self.trouble:
+                self.log.say("error", text=picture.text)
+            self.trouble = picture.text
+            return
+        shot, before = picture.shot, self.picture
+        if shot.scene.surface.field.digest != self.state.surface.field.digest:
+            return
+        self.picture, self.trouble = picture, ""
+        self.times.append(picture.milliseconds)
+        # The first picture of another structure has waited for the compiler: that is no measure of its pace.
+        if shot.moving and before is not None and structure(before.shot) == structure(shot):
+            full, pixels = self.size[0] * self.size[1], shot.size[0] * shot.size[1]
+            self._pace = self._pace.after(picture.milliseconds, pixels, full, self.state.budget)
+        if not shot.moving:
+            self.log.say("picture", **picture.facts)
+
+    def _tell_camera(self) -> None:
+        camera = self.state.camera
+        if camera != self._told_camera:
+            self._told_camera = camera
+            self.log.say("camera", eye=camera.eye, target=camera.target, fov=camera.fov, height=camera.height)
+
+    # ---------------------------------------------------------------- what panels ask for
+
+    def _do(self) -> None:
+        """Do what the panels have asked for."""
+        todo = self.state.todo
+        if todo:
+            self.state = replace(self.state, todo=())
+        for what, value in todo:
+            errands.TABLE[what](self, value)

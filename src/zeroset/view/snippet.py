@@ -1,0 +1,105 @@
+"""The picture as a program: Python that makes it again, and the same as a command line."""
+
+from __future__ import annotations
+
+import dataclasses
+import shlex
+from typing import Any
+
+from zeroset.scene.bounds import Ball, Bounds
+from zeroset.scene.camera import Camera
+from zeroset.scene.file import dumps
+from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
+from zeroset.scene.surface import Surface
+from zeroset.solve.method import Method
+from zeroset.view.state import State
+
+
+def python(state: State, size: tuple[int, int]) -> str:
+    """A program that draws what the window shows and saves it as ``picture.png``; colours of overlays apart."""
+    lines = ["import zeroset as zs", "", f"surface = {_surface(state.surface)}", f"camera = {_camera(state.camera)}"]
+    scene = ["surface", "camera"]
+    if state.material != Material():
+        scene.append(f"material={_changed('zs.Material', state.material, Material())}")
+    if state.lights != DEFAULT_LIGHTS:
+        lights = ", ".join(_changed("zs.Light", light, Light()) for light in state.lights)
+        scene.append(f"lights=({lights}{',' if len(state.lights) == 1 else ''})")
+    if state.background != DEFAULT_BACKGROUND:
+        scene.append(f"background={state.background!r}")
+    lines += [f"scene = zs.Scene({', '.join(scene)})"]
+    call = ["scene", f"size={size!r}"]
+    if state.method.name != "auto" or _options(state.method):
+        call.append(f"method={_method(state.method)}")
+    if state.tolerance is not None:
+        call.append(f"tolerance={state.tolerance!r}")
+    lines += [f"image = zs.render({', '.join(call)})", 'image.save("picture.png")', ""]
+    return "\n".join(lines)
+
+
+def command(state: State, size: tuple[int, int]) -> str:
+    """A command line that does the same; a scene file goes before it where colours, lights or bounds ask for one."""
+    method = ",".join(f"{k}={v}" for k, v in _options(state.method).items())
+    rest = ["-s", f"{size[0]}x{size[1]}"]
+    if state.method.name != "auto" or method:
+        rest += ["-m", state.method.name + (f":{method}" if method else "")]
+    if state.tolerance is not None:
+        rest += ["-t", repr(state.tolerance)]
+    rest += ["-o", "picture.png"]
+    if not _plain(state):
+        scene = dumps(state.scene).rstrip("\n")
+        return f"cat > scene.toml <<'END'\n{scene}\nEND\n{shlex.join(['zeroset', 'render', 'scene.toml', *rest])}\n"
+    return shlex.join(["zeroset", "render", state.surface.formula, *_places(state), *rest]) + "\n"
+
+
+def _plain(state: State) -> bool:
+    """Whether options alone say all that there is to say."""
+    bounds = state.bounds
+    lit = (state.material, state.lights, state.background) == (Material(), DEFAULT_LIGHTS, DEFAULT_BACKGROUND)
+    return lit and not state.surface.arrays and (not isinstance(bounds, Ball) or not any(bounds.center))
+
+
+def _places(state: State) -> list[str]:
+    """Parameters, bounds and camera as options; with = where a value may begin with a minus sign."""
+    made = [f"--param={name}={value!r}" for name, value in state.surface.params.items()]
+    bounds, camera = state.bounds, state.camera
+    numbers = (bounds.radius,) if isinstance(bounds, Ball) else (*bounds.min, *bounds.max)
+    made.append("--bounds=" + ",".join(map(repr, numbers)))
+    made += [f"--{name}=" + ",".join(map(repr, getattr(camera, name))) for name in ("eye", "target", "up")]
+    made.append(f"--fov={camera.fov!r}" if camera.height is None else f"--height={camera.height!r}")
+    return made
+
+
+def _surface(surface: Surface) -> str:
+    params: dict[str, Any] = {**surface.params, **{name: values.tolist() for name, values in surface.arrays.items()}}
+    parts = [repr(surface.formula)]
+    if params:
+        parts.append(f"params={params!r}")
+    return f"zs.surface({', '.join([*parts, f'bounds={_bounds(surface.fitted)}'])})"
+
+
+def _bounds(bounds: Bounds) -> str:
+    if isinstance(bounds, Ball):
+        return repr(bounds.radius) if not any(bounds.center) else f"zs.Ball({bounds.radius!r}, {bounds.center!r})"
+    return f"zs.Box({bounds.min!r}, {bounds.max!r})"
+
+
+def _camera(camera: Camera) -> str:
+    lens = f"fov={camera.fov!r}" if camera.height is None else f"height={camera.height!r}"
+    return f"zs.Camera(eye={camera.eye!r}, target={camera.target!r}, up={camera.up!r}, {lens})"
+
+
+def _method(method: Method) -> str:
+    options = ", ".join(f"{k}={v!r}" for k, v in _options(method).items())
+    return f"zs.methods.{type(method).__name__}({options})" if options else repr(method.name)
+
+
+def _options(method: Method) -> dict[str, Any]:
+    """The options that are not what they are by default."""
+    return {f.name: getattr(method, f.name) for f in dataclasses.fields(method) if getattr(method, f.name) != f.default}
+
+
+def _changed(name: str, value: Any, plain: Any) -> str:
+    """A call that makes a value, with those fields only that differ from the plain one's."""
+    fields = [f.name for f in dataclasses.fields(value)]
+    changed = [f"{f}={getattr(value, f)!r}" for f in fields if getattr(value, f) != getattr(plain, f)]
+    return f"{name}({', '.join(changed)})"

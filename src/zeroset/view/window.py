@@ -1,0 +1,167 @@
+"""The window: a canvas with the picture and the panels on it, and the events between them and the session."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from zeroset.view import hud, theme
+from zeroset.view.atlas import Atlas
+from zeroset.view.canvas import device_on, plain_format
+from zeroset.view.controls import Pane
+from zeroset.view.panels import PANELS, formula
+from zeroset.view.panels.context import Context
+from zeroset.view.picture import PictureView
+from zeroset.view.session import Session
+from zeroset.view.standin import slow_to_compile
+from zeroset.view.thumbnails import Thumbnails
+
+LINGER = 6
+"""Frames that are drawn after an event: panels answer to some of them a frame later."""
+BLINK = 4.0
+"""Frames a second while text is edited, for its cursor."""
+HANDLED = ("pointer_down", "pointer_up", "pointer_move", "wheel", "double_click", "key_down", "key_up")
+HEARD = (*HANDLED, "char", "resize", "pointer_enter", "pointer_leave")
+
+
+class Window:
+    """Draws a session on a canvas with wgpu, panels included.
+
+    Args:
+        canvas: of rendercanvas.
+        adapter: of wgpu.
+        session: what runs behind it; its ``wake`` should ask the canvas for a draw.
+    """
+
+    def __init__(self, canvas: Any, adapter: Any, session: Session) -> None:
+        from imgui_bundle import imgui
+        from wgpu.utils.imgui import ImguiRenderer
+
+        self._canvas, self._session, self._imgui = canvas, session, imgui
+        device = device_on(adapter)
+        self._surface = canvas.get_wgpu_context()
+        target = plain_format(self._surface, adapter)
+        self._surface.configure(device=device, format=target)
+        self._panels = ImguiRenderer(device, canvas)
+        self._panels.set_gui(self._gui)
+        self._picture_view = PictureView(device, target)
+        self._uploaded: Any = None
+        self._linger = LINGER
+        self._cursor = "default"
+        self._editing = False
+        theme.apply(imgui)
+        device_name = "cpu" if slow_to_compile(session.state.device) else session.state.device
+        self._thumbnails = Thumbnails(device_name, lambda: session.resting, self._wake)
+        atlas = Atlas(device, self._panels.backend.register_texture, self._thumbnails)
+        self._context = Context(imgui, session, theme.load_fonts(imgui), atlas)
+        canvas.add_event_handler(self._heard, *HEARD, order=-100)
+        canvas.add_event_handler(self._handle, *HANDLED)
+        canvas.request_draw(self._draw)
+
+    # ---------------------------------------------------------------- events
+
+    def _wake(self) -> None:
+        self._canvas.request_draw()
+
+    def _heard(self, event: dict[str, Any]) -> None:
+        """Any event: it will be seen in the next frames."""
+        self._linger = LINGER
+        self._canvas.request_draw()
+        if event["event_type"] == "pointer_up":
+            # Wherever the button is let go, the drag ends.
+            self._session.handle(event, self._pane())
+
+    def _handle(self, event: dict[str, Any]) -> None:
+        """An event that the panels have left for the picture."""
+        kind, io = event["event_type"], self._imgui.get_io()
+        # Panels keep most of what is theirs, but let through double clicks and keys that they have no name for.
+        if io.want_capture_mouse if kind == "double_click" else kind == "key_down" and io.want_capture_keyboard:
+            return
+        self._session.handle(event, self._pane())
+
+    def close(self) -> bool:
+        """End what the window has begun; gives whether it has ended."""
+        return self._thumbnails.close()
+
+    # ---------------------------------------------------------------- drawing
+
+    def _pane(self) -> Pane:
+        width, height = self._canvas.get_logical_size()
+        side = min(theme.SIDEBAR, 0.6 * width)
+        return Pane(side, 0.0, max(1.0, width - side), max(1.0, height))
+
+    def _draw(self) -> None:
+        ratio, pane = self._canvas.get_pixel_ratio(), self._pane()
+        width, height = self._canvas.get_physical_size()
+        left = round(pane.x * ratio)
+        more = self._session.tick((max(1, width - left), max(1, height)))
+        picture = self._session.picture
+        if picture is not None and picture is not self._uploaded:
+            self._picture_view.upload(picture.pixels)
+            self._uploaded = picture
+        target = self._surface.get_current_texture().create_view()
+        self._picture_view.draw(target, (left, 0.0, width - left, height), theme.BACK)
+        self._context.thumbnails.update()
+        self._panels.render()
+        more = self._session.follow() or more
+        self._linger -= 1
+        if more or self._linger > 0:
+            self._canvas.request_draw()
+
+    def _gui(self) -> None:
+        imgui, state = self._imgui, self._session.state
+        pane = self._pane()
+        imgui.set_next_window_pos((0.0, 0.0))
+        imgui.set_next_window_size((pane.x, pane.height))
+        flags = imgui.WindowFlags_.no_decoration & ~imgui.WindowFlags_.no_scrollbar
+        flags |= imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_saved_settings
+        imgui.begin("##sidebar", None, flags | imgui.WindowFlags_.no_bring_to_front_on_focus)
+        state = formula.draw(state, self._context)
+        for title, draw, opened in PANELS:
+            imgui.set_next_item_open(opened, imgui.Cond_.first_use_ever)
+            if imgui.collapsing_header(title):
+                imgui.push_id(title)
+                state = draw(state, self._context)
+                imgui.pop_id()
+                imgui.spacing()
+        imgui.end()
+        self._session.state = state
+        hud.draw(state, self._context, pane)
+        self._follow_cursor()
+
+    def _follow_cursor(self) -> None:
+        """Show the pointer that the panels want, and keep the text cursor blinking."""
+        imgui = self._imgui
+        kinds = imgui.MouseCursor_
+        names = {kinds.text_input: "text", kinds.hand: "pointer", kinds.resize_ew: "ew-resize"}
+        cursor = names.get(imgui.get_mouse_cursor(), "default")
+        if cursor != self._cursor:
+            self._cursor = cursor
+            self._canvas.set_cursor(cursor)
+        editing = bool(imgui.get_io().want_text_input)
+        if editing != self._editing:
+            self._editing = editing
+            self._canvas.set_update_mode("ondemand", min_fps=BLINK if editing else 0.0)
+
+
+def desktop_clipboard(imgui: Any) -> Any:
+    """Connect the panels to the system's clipboard; gives what puts text there."""
+    import glfw as module
+
+    # GLFW takes any window, none included; its annotations know only of one.
+    glfw: Any = module
+
+    def put(text: str) -> bool:
+        glfw.set_clipboard_string(None, text)
+        return True
+
+    def get(context: Any) -> str:
+        found = glfw.get_clipboard_string(None)
+        return found.decode("utf-8", "replace") if found else ""
+
+    def take(context: Any, text: str) -> None:
+        put(text)
+
+    platform = imgui.get_platform_io()
+    platform.platform_set_clipboard_text_fn = take
+    platform.platform_get_clipboard_text_fn = get
+    return put

@@ -1,0 +1,81 @@
+"""The CPU draws until the GPU's compiler is done, and goes on where it fails."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+import zeroset as zs
+from zeroset.errors import DeviceError
+from zeroset.scene.scene import Scene
+from zeroset.view import standin
+from zeroset.view.painting import Shot
+from zeroset.view.standin import StandIn
+
+SURFACE = zs.surface("x^2 + y^2 + a*z^2 = 1", {"a": 1.0}, bounds=1.5)
+SHOT = Shot(Scene(SURFACE), (40, 30), zs.methods.Auto(), "gpu", None, "none", moving=True)
+
+
+@pytest.fixture(autouse=True)
+def slow(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(standin, "slow_to_compile", lambda device: device == "gpu")
+
+
+def wait(done: Callable[[], object]) -> None:
+    end = time.monotonic() + 30
+    while not done():
+        assert time.monotonic() < end
+        time.sleep(0.002)
+
+
+def test_the_gpu_takes_over_when_it_is_ready() -> None:
+    gate, warmed = threading.Event(), []
+
+    def warm(shot: Shot, superseded: object) -> None:
+        warmed.append(shot)
+        assert gate.wait(30)
+
+    stand_in = StandIn(lambda: None, warm)
+    assert stand_in.placed(SHOT).device == "cpu"
+    assert stand_in.placed(SHOT).device == "cpu"
+    gate.set()
+    wait(lambda: stand_in.placed(SHOT).device == "gpu")
+    assert len(warmed) == 1
+    # Other numbers are the same kernels, another method is not.
+    moved = replace(SHOT, scene=Scene(SURFACE.with_params(a=2.0)), size=(80, 60), moving=False)
+    assert stand_in.placed(moved).device == "gpu"
+    assert stand_in.placed(replace(SHOT, method=zs.methods.Affine()), compile=False).device == "cpu"
+    assert stand_in.trouble == ""
+    assert stand_in.close(30)
+
+
+def test_where_the_gpu_cannot_the_cpu_goes_on_and_says_why() -> None:
+    def warm(shot: Shot, superseded: object) -> None:
+        raise DeviceError("too long a shader")
+
+    stand_in = StandIn(lambda: None, warm)
+    stand_in.placed(SHOT)
+    wait(lambda: stand_in.placed(SHOT) and stand_in.trouble)
+    assert "too long a shader" in stand_in.trouble
+    assert stand_in.placed(SHOT).device == "cpu"
+    assert stand_in.placed(replace(SHOT, device="cpu")).device == "cpu"
+    assert stand_in.trouble == ""
+    assert stand_in.close(30)
+
+
+def test_nothing_stands_in_for_the_cpu() -> None:
+    def warm(shot: Shot, superseded: object) -> None:
+        raise AssertionError
+
+    stand_in = StandIn(lambda: None, warm)
+    shot = replace(SHOT, device="cpu")
+    assert stand_in.placed(shot) is shot
+    assert stand_in.close(30)
+
+
+def test_warming_draws_a_small_picture() -> None:
+    standin.compiled(replace(SHOT, device="cpu"), lambda: False)

@@ -1,0 +1,76 @@
+"""Every panel drawn off the screen, in many states: none may fail, whatever the state is."""
+
+from __future__ import annotations
+
+import logging
+import subprocess
+import sys
+
+import pytest
+
+PROGRAM = """
+import logging, sys, time
+from dataclasses import replace
+logging.basicConfig(level=logging.ERROR)
+import numpy as np
+from rendercanvas.offscreen import RenderCanvas
+import zeroset as zs
+from zeroset.view import canvas as canvases, panels, window
+from zeroset.view.log import Log
+from zeroset.view.session import Session
+from zeroset.view.show import scene_of, start
+from zeroset.view.state import OVERLAYS, Motion
+
+window.PANELS = tuple((title, draw, True) for title, draw, _ in panels.PANELS)
+canvas = RenderCanvas(size=(600, 700), pixel_ratio=float(sys.argv[1]))
+session = Session(start(*scene_of("x^2 + y^2 + a*z^2 = 1"), zs.methods.Auto(), "cpu", None), Log(None))
+shown = window.Window(canvas, canvases.find_adapter(), session)
+
+def draw(until=lambda: session.resting):
+    end = time.monotonic() + 60
+    for i in range(100_000):
+        image = canvas.draw()
+        if i > 2 and until():
+            return np.asarray(image)
+        assert time.monotonic() < end, session.trouble
+        time.sleep(0.002)
+
+plain = draw()
+assert plain.shape[:2] == (700 * float(sys.argv[1]), 600 * float(sys.argv[1])), plain.shape
+state = session.state
+for method in zs.methods.METHODS.values():
+    session.state = replace(state, method=method())
+    draw()
+for overlay in OVERLAYS:
+    session.state = replace(state, overlay=overlay, axes=True, grid=True, outline=True, help=True)
+    draw()
+for changes in (
+    {"surface": state.surface.with_bounds(zs.Box((-1, -1, -1), (1, 2, 1)))},
+    {"camera": zs.Camera(eye=(0.0, 0.0, 5.0), height=3.0)},
+    {"flying": True},
+    {"lights": ()},
+    {"lights": (zs.Light(headlight=False, color=(0.0, 0.0, 0.0)),)},
+    {"tolerance": 1e-3},
+    {"motions": {"a": Motion(playing=True)}, "budget": 5.0},
+    {"text": "x + % {"},
+    {"text": "x + foo"},
+    {"surface": zs.gallery["blinn-blobby"]},
+):
+    session.state = replace(state, **changes)
+    draw(lambda: session.state.playing or session.resting)
+session.state = state.ask("copy-python").ask("save-picture", "no/such/place.png\\n")
+draw(lambda: "cannot" in session.notes.latest)
+print("panels drawn")
+shown.close(), session.close()
+"""
+
+
+@pytest.mark.parametrize("ratio", ["1", "2"])
+@pytest.mark.usefixtures("adapter")
+def test_every_panel_draws_itself_in_every_state(ratio: str) -> None:
+    done = subprocess.run([sys.executable, "-c", PROGRAM, ratio], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.strip() == "panels drawn"
+    # Errors while drawing are logged and not raised: nothing of the kind may be there.
+    assert "Traceback" not in done.stderr
+    assert logging.getLevelName(logging.ERROR) not in done.stderr.replace("error: XDG_RUNTIME_DIR", "")

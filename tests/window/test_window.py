@@ -1,0 +1,106 @@
+"""A real window on a display of its own, used as a person would use it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import zeroset as zs
+from zeroset.view.state import BACKGROUND
+from zeroset.view.theme import SIDEBAR
+
+FORMULA = "x^2 + y^2 + a*z^2 = 1"
+SIZE = (1280, 800)
+PANE = (slice(0, 740), slice(int(SIDEBAR), SIZE[0]))
+"""The picture on the screen, above the strip with its numbers."""
+BOX, SLIDER = (150, 40), (232, 160)
+"""The formula box, and the handle of the first slider at half of its range's upper part."""
+MIDDLE = (int(SIDEBAR) + (SIZE[0] - int(SIDEBAR)) // 2, SIZE[1] // 2)
+
+
+def test_a_person_uses_the_window(at_window: Callable[..., Any]) -> None:
+    person = at_window(FORMULA, "-p", "a=1", "-d", "cpu")
+    person.wait("opened")
+    window = person.window()
+
+    # What stands on the screen is what render draws, pixel by pixel.
+    first = person.wait("picture")
+    surface = zs.surface(FORMULA, {"a": 1.0})
+    wanted = zs.render(zs.Scene(surface, background=BACKGROUND), (first["size"][0], first["size"][1]), device="cpu")
+    assert first["size"] == [SIZE[0] - SIDEBAR, SIZE[1]]
+    assert first["hits"] == wanted.hits
+    assert np.abs(person.screen()[PANE].astype(int) - wanted.pixels[PANE[0]].astype(int)).max() <= 1
+
+    # A drag orbits: the eye moves and keeps its distance.
+    person.drag(MIDDLE, (MIDDLE[0] + 120, MIDDLE[1] + 40))
+    orbited = person.wait("camera")
+    camera = zs.Camera(orbited["eye"], orbited["target"])
+    assert camera.eye != wanted_camera(surface).eye
+    assert math.dist(camera.eye, camera.target) == pytest.approx(math.dist(wanted_camera(surface).eye, (0, 0, 0)))
+
+    # The wheel comes nearer.
+    person.do("mousemove", *MIDDLE)
+    person.do("click", 4)
+    zoomed = person.wait("camera")
+    assert math.dist(zoomed["eye"], zoomed["target"]) < 0.95 * math.dist(camera.eye, camera.target)
+    person.wait("picture")
+    before = person.screen()[PANE]
+
+    # A mistake is said and ends nothing; the picture stays.
+    person.replace_text(BOX, "(x^2 + y^2 + a*")
+    error = person.wait("error", lambda facts: "a value is missing at the end after *" in facts["text"])
+    assert error["text"].split("\n")[1:3] == ["  (x^2 + y^2 + a*", "                 ^"]
+    assert np.array_equal(person.screen()[PANE], before)
+
+    # Mended, it is another surface.
+    person.do("type", "--delay", 30, "z^2) = x^4")
+    formula = person.wait("formula", lambda facts: "x^4" in facts["formula"])
+    assert formula["params"] == {"a": 1.0}
+    person.wait("picture")
+    assert not np.array_equal(person.screen()[PANE], before)
+
+    # A slider moves the parameter.
+    person.drag(SLIDER, (SLIDER[0] - 60, SLIDER[1]))
+    moved = person.wait("picture", lambda facts: facts["params"]["a"] != 1.0)
+    assert -1.0 < moved["params"]["a"] < 1.0
+
+    # Closed by its cross, the process ends, in order.
+    person.close(window)
+    out, err = person.process.communicate(timeout=60)
+    assert person.process.returncode == 0, err
+    assert "Traceback" not in out + err
+    assert person.events()[-1]["event"] == "closed"
+
+
+def wanted_camera(surface: zs.Surface) -> zs.Camera:
+    from zeroset.scene.camera import fit_camera
+
+    return fit_camera(surface.fitted)
+
+
+SCRIPT = """
+import zeroset as zs
+for log, source in (("0", "x^2 + y^2 + z^2 = 1"), ("1", zs.gallery["torus"])):
+    zs.show(source, size=(640, 480), device="cpu", log=log)
+    print("closed", flush=True)
+"""
+
+
+def test_a_script_goes_on_when_its_window_is_closed_and_may_open_another(
+    at_window: Callable[..., Any], tmp_path: Path
+) -> None:
+    person = at_window(program=SCRIPT)
+    for log in ("0", "1"):
+        person.begin_again(tmp_path / log)
+        person.wait("opened")
+        person.wait("picture")
+        person.close(person.window())
+        assert person.process.stdout.readline().strip() == "closed"
+    out, err = person.process.communicate(timeout=60)
+    assert (person.process.returncode, out) == (0, ""), err
+    assert "Traceback" not in err
