@@ -77,7 +77,7 @@ def main(args: list[str] | None = None) -> int:
         click.echo("interrupted: no file was left half written", err=True)
         return 130
     except MemoryError:
-        click.echo("error: there is not enough memory for this\n  hint: try a smaller --size", err=True)
+        click.echo("error: there is not enough memory for this\n  hint: try a smaller --size or --resolution", err=True)
         return 1
     except BrokenPipeError:
         # The reader of our output has gone (`zeroset gallery | head`). What is still in the buffer goes nowhere.

@@ -22,7 +22,10 @@ NEEDED = {
     "wgpu": "drawing on a GPU",
 }
 """What zeroset is installed with, and what for."""
-OPTIONAL = {"sympy": "SymPy expressions as surfaces: pip install 'zeroset[sympy]'"}
+OPTIONAL = {
+    "sympy": "SymPy expressions as surfaces: pip install 'zeroset[sympy]'",
+    "trimesh": "mesh files: pip install 'zeroset[export]'",
+}
 
 
 @click.command("doctor")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zeroset.cli.look import look_options, with_look
 from zeroset.cli.progress import Progress
 from zeroset.cli.source import (
     FormulaCommand,
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
 @click.option("--fov", type=float, help="Opening angle in degrees, for perspective.")
 @click.option("--height", type=float, help="World length across the picture, for an orthographic camera.")
 @click.option("--orbit", type=float, default=0.0, help="Turn the camera about z by so many degrees.")
+@look_options
 @click.option("--save-scene", metavar="FILE", help="Write the scene as a .toml file too.")
 @click.option(
     "--save-outputs", metavar="FILE", help="Write depth, normal, status, steps and t as a NumPy .npz file too."
@@ -59,6 +61,7 @@ def command(
     orbit: float,
     save_scene: str | None,
     save_outputs: str | None,
+    **look: Any,
 ) -> None:
     """Draw SOURCE: a formula such as "x^2 + y^2 = z", a gallery name, or a scene file."""
     import dataclasses
@@ -70,6 +73,7 @@ def command(
         if extra is not None:
             existing_folder(extra)
     scene = find_scene(source, params, bounds)
+    scene = with_look(scene, look)
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     # What writes pictures is loaded while the compiler works, outside Python's lock.
     threading.Thread(target=_load_formats, daemon=True).start()

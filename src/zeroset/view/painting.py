@@ -106,7 +106,7 @@ def paint(shot: Shot, superseded: Superseded) -> Picture:
         method=shot.method,
         device=shot.device,
         tolerance=shot.tolerance,
-        thin=not shot.moving,
+        draft=shot.moving,
         progress=None if shot.moving else look_up,
     )
     spent = (time.perf_counter() - begin) * 1e3

@@ -71,7 +71,7 @@ class Session:
         self._text, self._edited, self._shown_text = state.text, 0.0, state.text
         self._asked_text = state.text
         self._wanted: Shot | None = None
-        self._changed, self._refined = 0.0, False
+        self._changed, self._refined, self._moving = 0.0, False, False
         self._ticked = time.perf_counter()
         self._told_camera = state.camera
 
@@ -130,6 +130,13 @@ class Session:
         flying = self.state.flying and bool(self.controls.keys)
         waiting = self.state.text != self._asked_text or not self._refined
         return self.state.playing or flying or waiting or bool(self.notes.latest)
+
+    def catch_up(self) -> None:
+        """Wait for a picture that moves, if it may be expected within its budget: what was asked for is seen at once."""
+        if self._moving and self._painter.busy and self.times[-1] < self.state.budget:
+            self._painter.wait(self.state.budget * 1e-3)
+            for picture in self._painter.answers():
+                self._take_picture(picture)
 
     def close(self, timeout: float = 1.0) -> bool:
         """End the threads, after what was to be saved; gives whether each has ended within the time."""
@@ -218,9 +225,11 @@ class Session:
         full = self._shot(False)
         if full != self._wanted:
             self._wanted, self._changed, self._refined = full, now, False
+            self._moving = True
             self._painter.ask(self._shot(True))
         elif not self._refined and now - self._changed >= REST and not self.controls.dragging:
             self._refined = True
+            self._moving = False
             self._painter.ask(full)
             self._tell_camera()
 

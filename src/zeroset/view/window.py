@@ -90,24 +90,34 @@ class Window:
         return Pane(side, 0.0, max(1.0, width - side), max(1.0, height))
 
     def _draw(self) -> None:
-        ratio, pane = self._canvas.get_pixel_ratio(), self._pane()
-        width, height = self._canvas.get_physical_size()
-        left = round(pane.x * ratio)
-        more = self._session.tick((max(1, width - left), max(1, height)))
-        picture = self._session.picture
-        if picture is not None and picture is not self._uploaded:
-            self._picture_view.upload(picture.pixels)
-            self._uploaded = picture
-        target = self._surface.get_current_texture().create_view()
-        self._picture_view.draw(target, (left, 0.0, width - left, height), theme.BACK)
+        _, _, width, height = self._place()
+        more = self._session.tick((max(1, width), max(1, height)))
         self._context.thumbnails.update()
+        # The panels say what is wanted before anything is drawn: see ``_gui``.
         self._panels.render()
         more = self._session.follow() or more
         self._linger -= 1
         if more or self._linger > 0:
             self._canvas.request_draw()
 
+    def _place(self) -> tuple[int, int, int, int]:
+        """Where the picture is, in pixels of the canvas."""
+        width, height = self._canvas.get_physical_size()
+        left = round(self._pane().x * self._canvas.get_pixel_ratio())
+        return left, 0, width - left, height
+
+    def _show_picture(self) -> None:
+        """Draw the picture under the panels, whose own drawing is only handed over after this."""
+        picture = self._session.picture
+        if picture is not None and picture is not self._uploaded:
+            self._picture_view.upload(picture.pixels)
+            self._uploaded = picture
+        target = self._surface.get_current_texture().create_view()
+        left, top, width, height = self._place()
+        self._picture_view.draw(target, (left, top, width, height), theme.BACK)
+
     def _gui(self) -> None:
+        """Let the panels change the state, then wait a moment for its picture, so that both appear together."""
         imgui, state = self._imgui, self._session.state
         pane = self._pane()
         imgui.set_next_window_pos((0.0, 0.0))
@@ -125,8 +135,11 @@ class Window:
                 imgui.spacing()
         imgui.end()
         self._session.state = state
-        hud.draw(state, self._context, pane)
+        self._session.follow()
+        self._session.catch_up()
+        hud.draw(self._session.state, self._context, pane)
         self._follow_cursor()
+        self._show_picture()
 
     def _follow_cursor(self) -> None:
         """Show the pointer that the panels want, and keep the text cursor blinking."""
