@@ -94,6 +94,7 @@ class Bounces:
             **sides,
             "lights": len(lights) // 8,
             "capacity": self._capacity,
+            "plane": self._layout.lanes,
             "farthest": FARTHEST,
             "shadow_tolerance": light.tolerance,
         }

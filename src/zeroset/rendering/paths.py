@@ -81,7 +81,7 @@ def first_path_kernel(field: Field, offset: bool, kind: str, optics: Optics) -> 
         normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
         found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end)
         one = constant(1.0, F32)
-        respond = _Response(builder, Lowered(field, builder, offset=offset), kind, optics)
+        respond = _Response(builder, Lowered(field, builder, offset=offset), kind, optics, alone=True)
         respond.to(_Carried(lane, ray, constant(0.0, F32), (one, one, one)), found)
     return builder.kernel
 
@@ -114,7 +114,11 @@ def _follow(builder: KernelBuilder, place: Value, field: Field, offset: bool, ki
 class _Response:
     """What comes of a ray: colour for its pixel, and further rays."""
 
-    def __init__(self, builder: KernelBuilder, lowered: Lowered, kind: str, optics: Optics) -> None:
+    def __init__(
+        self, builder: KernelBuilder, lowered: Lowered, kind: str, optics: Optics, alone: bool = False
+    ) -> None:
+        # Whether no other lane of this run has the same pixel.
+        self.alone = alone
         self.builder = builder
         self.lowered = lowered
         self.kind = kind
@@ -133,10 +137,14 @@ class _Response:
         return [self.uniform(f"sky_{c}") for c in "rgb"]
 
     def _add(self, carried: _Carried, color: Sequence[Value]) -> None:
-        sums = self.builder.buffer(ACCUMULATED, U32, writable=True)
+        sums, plane = self.builder.buffer(ACCUMULATED, U32, writable=True), self.builder.uniform("plane", U32)
         for i, (c, w) in enumerate(zip(color, carried.weight, strict=True)):
-            amount = (c * w).maximum(0.0).minimum(BRIGHTEST) * UNIT
-            atomic("add", sums, carried.pixel * 3 + i, (amount + 0.5).floor().convert(U32))
+            amount = ((c * w).maximum(0.0).minimum(BRIGHTEST) * UNIT + 0.5).floor().convert(U32)
+            place = carried.pixel + plane * i
+            if self.alone:
+                store(sums, place, load(sums, place) + amount)
+            else:
+                atomic("add", sums, place, amount)
 
     # ---------------------------------------------------------- at a hit
 
@@ -236,7 +244,8 @@ def resolve_kernel() -> Kernel:
     with KernelBuilder("resolve") as builder:
         lane = builder.index()
         sums = builder.buffer(ACCUMULATED, U32)
-        color = [encode(load(sums, lane * 3 + i).convert(F32) * (1.0 / UNIT)) for i in range(3)]
+        plane = builder.uniform("plane", U32)
+        color = [encode(load(sums, lane + plane * i).convert(F32) * (1.0 / UNIT)) for i in range(3)]
         column, row = pixel_place(builder, lane)
         width = builder.uniform("width", U32)
         inside = (column < width) & (row < builder.uniform("height", U32))

@@ -46,27 +46,40 @@ class Walk(Protocol):
 
 @dataclass(frozen=True)
 class Striding:
-    """Steps of free length: doubled after an empty interval, cut to the candidates otherwise. State: a, h."""
+    """Steps of free length: doubled after an empty interval, cut to the candidates otherwise.
+
+    State: a and h, the next interval; edge and far: nothing is between them. What a cut has shown to be free behind the
+    candidates is remembered, and passed over at once when they turn out to be none.
+    """
 
     def start(self, problem: Problem) -> State:
         """The whole stretch, or its first step."""
-        return problem.t0, problem.step.minimum(problem.t1 - problem.t0).maximum(problem.tolerance)
+        first = problem.step.minimum(problem.t1 - problem.t0).maximum(problem.tolerance)
+        return problem.t0, first, problem.t1, problem.t1
 
     def interval(self, problem: Problem, state: State) -> tuple[Value, Value]:
         """Where to look next."""
-        a, h = state
-        return a, (a + h).minimum(problem.t1)
+        a, h, edge, _ = state
+        return a, (a + h).minimum(edge)
 
     def leave(self, problem: Problem, state: State, b: Value, leaf: Value) -> State:
-        """Go on behind the interval."""
-        return b, leaf.select(problem.tolerance, state[1] * 2.0)
+        """Go on behind the interval, and behind what is known to be free after it."""
+        _, h, edge, far = state
+        spent = b >= edge
+        # A leaf may hold a root: what follows it must be looked at, for its sign.
+        jump = spent & ~leaf
+        step = leaf.select(problem.tolerance, jump.select((h * 2.0).maximum(far - edge), h * 2.0))
+        return jump.select(far.maximum(b), b), step, spent.select(problem.t1, edge), spent.select(problem.t1, far)
 
     def narrow(self, problem: Problem, state: State, left: Value, right: Value) -> State:
         """Go into the interval."""
         width = right - left
         # A cut to less than half is worth trusting: examine just the candidates. Otherwise bisect.
         good = width < state[1] * 0.5
-        return left, good.select(width, width * 0.5).maximum(problem.tolerance)
+        _, b = self.interval(problem, state)
+        # Only where all of the candidates were looked at does what was free behind them follow on.
+        free = (b >= state[2]).select(state[3], b)
+        return left, good.select(width, width * 0.5).maximum(problem.tolerance), right, free
 
     def narrowest(self, problem: Problem, state: State, width: Value) -> Value:
         """Whether it is as narrow as the tolerance asks."""
