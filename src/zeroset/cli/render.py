@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 @surface_options
 @click.option("-o", "--output", default="zeroset.png", show_default=True, help="Picture to write.")
 @click.option("-s", "--size", default="1024", show_default=True, help="Pixels: 800 or 1280x720.")
+@click.option("--antialias", type=int, default=1, help="Rays of each pixel at an edge; 16 makes edges smooth.")
 @click.option("-t", "--tolerance", type=float, help="World length to which roots are found.")
 @click.option("--eye", metavar="X,Y,Z", help="Where the camera is.")
 @click.option("--target", metavar="X,Y,Z", help="What it looks at.")
@@ -52,6 +53,7 @@ def command(
     device: str,
     output: str,
     size: str,
+    antialias: int,
     tolerance: float | None,
     eye: str | None,
     target: str | None,
@@ -79,7 +81,16 @@ def command(
     threading.Thread(target=_load_formats, daemon=True).start()
     begin = time.perf_counter()
     with Progress("drawing") as progress:
-        image = render(scene, read_size(size), None, read_method(method), device, tolerance, progress=progress)
+        image = render(
+            scene,
+            read_size(size),
+            None,
+            read_method(method),
+            device,
+            tolerance,
+            antialias=antialias,
+            progress=progress,
+        )
     spent = time.perf_counter() - begin
     _save(image, scene, path, save_scene, save_outputs)
     _tell(image, path, spent, scene.surface.fitted)

@@ -27,7 +27,7 @@ def to_wgsl(kernel: Kernel, target: GpuTarget) -> str:
         >>> from zeroset.kernel import F32, KernelBuilder, store
         >>> with KernelBuilder("fill") as k:
         ...     store(k.buffer("x", F32, writable=True), k.index(), k.uniform("value", F32))
-        >>> print(to_wgsl(k.kernel, GpuTarget()).splitlines()[-3].strip())
+        >>> print(to_wgsl(k.kernel, GpuTarget()).splitlines()[-2].strip())
         x_[lane] = call.value_;
     """
     return _Shader(legalise(kernel, target), target).text()

@@ -20,6 +20,7 @@ from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
 WORDS = 12
+TILE_LANES = 64
 MOST_DEEP = 32
 """Runs in a row: surfaces that one ray may meet after the first."""
 FARTHEST = 1e30
@@ -57,6 +58,13 @@ class Bounces:
 
             return resolve_kernel()
 
+        def edges() -> Kernel:
+            from zeroset.rendering.antialias import edge_kernel
+
+            return edge_kernel(tracer.beams)
+
+        if optics.smooth:
+            tracer.add(f"edges {tracer.beams}", edges)
         own = f"{field.digest} {kind} {offset} {optics}"
         self._names = f"path_first {own}", f"path {own}", "resolve"
         for name, build in zip(self._names, (first, path, resolve), strict=True):
@@ -65,10 +73,11 @@ class Bounces:
         self._device = device
         self._layout = layout
         # A pixel seldom has more than one ray under way, and almost never more than two.
-        self._capacity = layout.lanes * (2 if (optics.mirror or optics.bends) and optics.through else 1)
+        branching = (optics.mirror or optics.bends) and optics.through
+        self._capacity = max(layout.lanes * (2 if branching else 1), 1 << 14)
         self._queues = [device.allocate(U32, self._capacity * WORDS) for _ in range(2)]
         self._sums = device.allocate(U32, layout.lanes * 3)
-        self._counters = device.allocate(U32, MOST_DEEP + 1)
+        self._counters = device.allocate(U32, MOST_DEEP + 2)
         self._data: dict[str, tuple[Any, npt.NDArray[np.float32]]] = {}
 
     def run(
@@ -86,7 +95,7 @@ class Bounces:
             picture: where the bytes go.
             light: the lights, the surroundings, and how far rays are followed.
         """
-        first, path, resolve = (self._tracer.program(name) for name in self._names)
+        first, _, resolve = (self._tracer.program(name) for name in self._names)
         lights, texels, depth = light.lights, light.texels, light.depth
         sides = {} if texels is None else {"face_side": round((texels.size / 18) ** 0.5)}
         common = {
@@ -103,17 +112,44 @@ class Bounces:
             buffers[TEXELS] = self._kept(TEXELS, texels)
         self._device.clear(self._sums)
         self._device.clear(self._counters)
-        here, there = self._queues
         first.run(
             self._layout.lanes,
             {**common, "next": 0, "goes_on": int(depth > 0)},
-            {**buffers, QUEUEING: here},
+            {**buffers, QUEUEING: self._queues[0]},
         )
+        self._follow(depth, common, buffers)
+        if light.samples > 1:
+            self._smooth(light, common, buffers)
+        resolve.run(self._layout.lanes, common, {**buffers, PICTURE: picture})
+
+    def _follow(self, depth: int, common: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
+        """Follow what is on the first queue over so many surfaces."""
+        path = self._tracer.program(self._names[1])
+        here, there = self._queues
         for level in range(depth):
             numbers = {**common, "next": level + 1, "goes_on": int(level + 1 < depth)}
             path.run(Counted(self._counters, level), numbers, {**buffers, QUEUED: here, QUEUEING: there})
             here, there = there, here
-        resolve.run(self._layout.lanes, common, {**buffers, PICTURE: picture})
+
+    def _smooth(self, light: Illumination, common: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
+        """Draw pixels anew with many rays: parts of the frame by turns, as many as the queue is sure to hold."""
+        edges = self._tracer.program(f"edges {self._tracer.beams}")
+        lanes = self._layout.lanes
+        # At edges there are far fewer: a quarter of all pixels is more than any picture has.
+        share = light.samples if light.everywhere else max(light.samples // 4, 1)
+        part = max(min(self._capacity // share, lanes) // TILE_LANES, 1) * TILE_LANES
+        for first in range(0, lanes, part):
+            self._device.clear(self._counters)
+            numbers = {
+                **common,
+                "first": first,
+                "next": 0,
+                "samples": light.samples,
+                "everywhere": int(light.everywhere),
+            }
+            edges.run(min(part, lanes - first), numbers, {**buffers, QUEUEING: self._queues[0]})
+            self._follow(light.depth + 1, common, buffers)
+            self._device.submit()
 
     def _kept(self, name: str, values: npt.NDArray[np.float32]) -> Any:
         """A buffer with these values, written anew where they have changed."""

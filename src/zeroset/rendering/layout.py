@@ -82,6 +82,13 @@ def pixel_place(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:
     return column, (tile_row << 3) + ((lane >> 5) & 1) * 4 + ((lane >> 2) & 3)
 
 
+def lane_at(builder: KernelBuilder, column: Value, row: Value) -> Value:
+    """The lane of a pixel inside the frame: what ``pixel_place`` undoes."""
+    tile = (row >> 3) * builder.uniform("columns", row.type) + (column >> 3)
+    block = (((row >> 2) & 1) << 1) | ((column >> 2) & 1)
+    return (tile << 6) | (block << 4) | ((row & 3) << 2) | (column & 3)
+
+
 def pixel_coordinates(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:
     """u and v of the middle of a lane's pixel."""
     column, row = pixel_place(builder, lane)

@@ -14,7 +14,7 @@ from zeroset.rendering.bounce import MOST_DEEP
 from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import Illumination, Lighting, shading_uniforms
+from zeroset.rendering.shading import Illumination, Lighting, Smooth, shading_uniforms
 from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, bounds_uniforms, number
@@ -25,6 +25,8 @@ from zeroset.scene.scene import Scene, as_scene
 from zeroset.scene.surface import Surface
 from zeroset.solve import Method, resolve_method
 
+MOST_SAMPLES = 256
+"""Rays of one pixel."""
 LARGEST = 16384
 """Pixels along a side."""
 MOST_PIXELS = 1 << 26
@@ -52,6 +54,8 @@ def render(
     shadow_tolerance: float | None = None,
     environment: Environment | str | None = None,
     depth: int | None = None,
+    antialias: int = 1,
+    samples: int = 1,
     progress: Progress | None = None,
 ) -> Image:
     """Draw a surface.
@@ -74,6 +78,8 @@ def render(
         environment: what is seen all around; None takes the scene's own.
         depth: how many surfaces a ray may meet after the first one, 0 to 32; None takes 6 where surfaces mirror or
             bend light, and 3 (four layers in all) where it only passes through.
+        antialias: rays of each pixel at a silhouette, a crease or another edge, 1 to 256; 16 makes them smooth.
+        samples: rays of every pixel, 1 to 256, instead.
         progress: called now and then with the share that is done, from 0 to 1.
 
     Returns:
@@ -103,7 +109,8 @@ def render(
     chosen.check(shown.field)
     shown.check_work()
     target = get_device(device)
-    whole, lighting = fits(layout, target), Lighting.of(scene)
+    smooth = _smooth(antialias, samples)
+    whole, lighting = fits(layout, target), Lighting.of(scene, smooth)
     # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, lighting, layout, target, draft) if whole else None
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
@@ -113,7 +120,7 @@ def render(
     coarse = shadow_length(shadow_tolerance, shown.fitted)
     light = None
     if scene.shadows or lighting.optics is not None:
-        light = Illumination.of(scene, rays, coarse, _depth(depth, lighting))
+        light = Illumination.of(scene, rays, coarse, _depth(depth, lighting), smooth)
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
@@ -178,6 +185,14 @@ def _depth(value: int | None, lighting: Lighting) -> int:
     return value
 
 
+def _smooth(antialias: int, samples: int) -> Smooth:
+    """The antialiasing that was asked for; raises ``ParameterError`` for what is no number of rays."""
+    for name, value in (("antialias", antialias), ("samples", samples)):
+        if not (isinstance(value, int) and 1 <= value <= MOST_SAMPLES):
+            raise ParameterError(f"{name} must be a whole number from 1 to {MOST_SAMPLES}, not {value!r}")
+    return Smooth(samples, True) if samples > 1 else Smooth(antialias, False)
+
+
 def frame_uniforms(surface: Surface, method: Method, rays: Rays, layout: Layout, tolerance: float) -> dict[str, float]:
     """Everything that the beams and the primary rays need to know."""
     bounds = surface.fitted
@@ -188,5 +203,6 @@ def frame_uniforms(surface: Surface, method: Method, rays: Rays, layout: Layout,
     spread = np.linalg.norm(rays.right) * max(depth, near) + np.linalg.norm(rays.right_origin)
     finest = max(float(spread) * 2.0 / max(layout.width, layout.height) * TILE, tolerance, 1e-6 * far)
     uniforms = camera_uniforms(rays) | bounds_uniforms(bounds) | layout.uniforms()
+    uniforms["world_pixel"] = float(spread) * 2.0 / max(layout.width, layout.height)
     uniforms |= {"near": near, "far": far, "finest": finest, "tolerance": tolerance}
     return uniforms | parameter_uniforms(surface, method)

@@ -18,6 +18,19 @@ NUMBERS = ("ambient", "diffuse", "specular", "shininess", "opacity", "reflectanc
 
 
 @dataclass(frozen=True, slots=True)
+class Smooth:
+    """Antialiasing.
+
+    Attributes:
+        samples: rays of a pixel that is antialiased; 1 for none.
+        everywhere: whether every pixel is, or only those at edges.
+    """
+
+    samples: int = 1
+    everywhere: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Optics:
     """What of materials and surroundings shapes the kernels of rays beyond the first hit.
 
@@ -26,6 +39,7 @@ class Optics:
         bends: whether it is bent there.
         mirror: whether surfaces mirror.
         sky: whether the surroundings are a cube map.
+        smooth: whether some pixels have many rays.
         shadows: whether lights throw shadows.
     """
 
@@ -34,15 +48,17 @@ class Optics:
     mirror: bool
     sky: bool
     shadows: bool
+    smooth: bool
 
     @classmethod
-    def of(cls, scene: Scene) -> Optics | None:
+    def of(cls, scene: Scene, smooth: Smooth) -> Optics | None:
         """What a scene asks for; None where the first hit is all."""
         material = scene.material
         through, mirror = material.opacity < 1, material.reflectance > 0
-        if not (through or mirror or scene.environment):
+        more = smooth.samples > 1
+        if not (through or mirror or scene.environment or more):
             return None
-        return cls(through, through and material.ior != 1, mirror, scene.environment is not None, scene.shadows)
+        return cls(through, through and material.ior != 1, mirror, scene.environment is not None, scene.shadows, more)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +77,9 @@ class Lighting:
     optics: Optics | None = None
 
     @classmethod
-    def of(cls, scene: Scene) -> Lighting:
+    def of(cls, scene: Scene, smooth: Smooth) -> Lighting:
         """The lighting of a scene."""
-        optics = Optics.of(scene)
+        optics = Optics.of(scene, smooth)
         if optics is not None:
             # There the lights are data.
             return cls("", False, optics)
@@ -80,6 +96,8 @@ class Illumination:
         texels: the cube map all around, or None.
         tolerance: world length to which shadows are found.
         depth: how many surfaces a ray may meet after the first.
+        samples: rays of a pixel that is antialiased; 1 for none.
+        everywhere: whether every pixel is.
     """
 
     shadows: tuple[dict[str, float], ...]
@@ -87,9 +105,11 @@ class Illumination:
     texels: npt.NDArray[np.float32] | None
     tolerance: float
     depth: int
+    samples: int = 1
+    everywhere: bool = False
 
     @classmethod
-    def of(cls, scene: Scene, rays: Rays, tolerance: float, depth: int) -> Illumination:
+    def of(cls, scene: Scene, rays: Rays, tolerance: float, depth: int, smooth: Smooth) -> Illumination:
         """The light of a scene that is seen along a camera's rays."""
         places = shadow_uniforms(scene.lights, rays, scene.surface.fitted, tolerance)
         rows = [
@@ -98,7 +118,8 @@ class Illumination:
         ]
         lights = np.asarray(rows, np.float32).reshape(-1)
         texels = None if scene.environment is None else scene.environment.texels()
-        return cls(tuple(places) if scene.shadows else (), lights, texels, tolerance, depth)
+        shadows = tuple(places) if scene.shadows else ()
+        return cls(shadows, lights, texels, tolerance, depth, smooth.samples, smooth.everywhere)
 
 
 def srgb(linear: float) -> float:

@@ -132,7 +132,7 @@ class Session:
         return self.state.playing or flying or waiting or bool(self.notes.latest)
 
     def catch_up(self) -> None:
-        """Wait for a picture that moves, if it may be expected within its budget: what was asked for is seen at once."""
+        """Wait for a picture that moves, if it may be expected within its budget: so it is seen at once."""
         if self._moving and self._painter.busy and self.times[-1] < self.state.budget:
             self._painter.wait(self.state.budget * 1e-3)
             for picture in self._painter.answers():

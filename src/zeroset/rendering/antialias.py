@@ -1,0 +1,115 @@
+"""Antialiasing where it matters: pixels at silhouettes, creases and borders get many rays, the others keep their one.
+
+A pixel is at an edge where a neighbour shows something else: nothing, another side of a crease, or a sheet that does
+not go on from this one's tangent plane (SN10 sections 3.4 and 7.1). Such a pixel's sum is begun anew with rays through
+its whole area, which take the same way as all rays beyond the first hit (``paths``): whatever a scene can show, its
+edges can. Pixels that are drawn because something thinner than a pixel lies in them keep their colour.
+"""
+
+from __future__ import annotations
+
+from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, for_, if_, load, store
+from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, NORMAL, QUEUEING
+from zeroset.rendering.layout import frame_coordinates, lane_at, pixel_place, tile_of
+from zeroset.rendering.paths import WORDS
+from zeroset.rendering.view import pixel_ray
+from zeroset.shade.reflectance import dot
+from zeroset.solve.status import MISS, UNRESOLVED
+
+CREASE = 0.92
+"""Cosine between the normals of neighbours below which there is a crease."""
+STEP = 0.75
+"""Pixels' widths by which a neighbour's point may lie off the tangent plane."""
+SPREAD = 0.7548776662466927, 0.5698402909980532
+"""Steps of a sequence that covers a square evenly, however many of its points are taken (M. Roberts' R2)."""
+
+
+class _Point:
+    """What a pixel shows."""
+
+    def __init__(self, builder: KernelBuilder, column: Value, row: Value) -> None:
+        lane = lane_at(builder, column, row)
+        u, v = frame_coordinates(builder, column.convert(F32) + 0.5, row.convert(F32) + 0.5)
+        ray = pixel_ray(builder, u, v)
+        t = load(builder.buffer("t", F32), lane)
+        self.hit = load(builder.buffer("status", U32), lane).ne(MISS)
+        self.place = [t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
+        self.normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
+
+    def differs(self, other: _Point, pixel: Value) -> Value:
+        """Whether there is an edge between two pixels."""
+        across = [a - b for a, b in zip(other.place, self.place, strict=True)]
+        off = abs(dot(across, self.normal)).maximum(abs(dot(across, other.normal)))
+        crease = dot(self.normal, other.normal) < CREASE
+        return (self.hit ^ other.hit) | (self.hit & other.hit & (crease | (off > pixel * STEP)))
+
+
+def edge_kernel(beams: bool) -> Kernel:
+    """Find the edges among a run of pixels and queue their rays; ``beams``: these start where their tile's beam ended.
+
+    Uniforms beside the camera's: ``first``, the first lane; ``samples``, rays a pixel; ``everywhere``, 1 for all
+    pixels; ``world_pixel``, a pixel's width in the scene; ``next``, the queue's counter; ``capacity``, its room.
+    """
+    with KernelBuilder("edges") as builder:
+        lane = builder.index() + builder.uniform("first", U32)
+        column, row = pixel_place(builder, lane)
+        width, height = builder.uniform("width", U32), builder.uniform("height", U32)
+        inside = (column < width) & (row < height)
+        thin = load(builder.buffer("status", U32), lane).eq(UNRESOLVED)
+        everywhere = builder.uniform("everywhere", U32).ne(0)
+        wanted = inside & ~thin & (everywhere | _at_edge(builder, column, row, width, height))
+        if_(wanted, lambda: _queue(builder, lane, column, row, beams))
+    return builder.kernel
+
+
+def _at_edge(builder: KernelBuilder, column: Value, row: Value, width: Value, height: Value) -> Value:
+    pixel = builder.uniform("world_pixel", F32)
+    last_column, last_row = width - 1, height - 1
+    here = _Point(builder, column.minimum(last_column), row.minimum(last_row))
+    edge: Value | None = None
+    for right, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        # A pixel at the frame's border is its own neighbour.
+        beside = (column + 1).minimum(last_column) if right > 0 else column.maximum(1) - 1 if right < 0 else column
+        below = (row + 1).minimum(last_row) if down > 0 else row.maximum(1) - 1 if down < 0 else row
+        other = here.differs(_Point(builder, beside.minimum(last_column), below.minimum(last_row)), pixel)
+        edge = other if edge is None else edge | other
+    assert edge is not None
+    return edge
+
+
+def _queue(builder: KernelBuilder, lane: Value, column: Value, row: Value, beams: bool) -> None:
+    """Begin a pixel's sum anew, and queue its rays; where there is no room it stays as it is."""
+    samples, capacity = builder.uniform("samples", U32), builder.uniform("capacity", U32)
+    counters = builder.buffer(COUNTERS, U32, writable=True)
+    slot = atomic("add", counters, builder.uniform("next", U32), samples)
+    room = slot + samples <= capacity
+    sums, plane = builder.buffer(ACCUMULATED, U32, writable=True), builder.uniform("plane", U32)
+
+    def begin() -> None:
+        for i in range(3):
+            store(sums, lane + plane * i, 0)
+
+    if_(room, begin)
+    start = load(builder.buffer("tile_start", F32), tile_of(lane)) if beams else constant(0.0, F32)
+    # What is left of a queue that is full is filled with rays that count for nothing.
+    weight = room.select(1.0 / samples.convert(F32), 0.0)
+    within = room.select(samples, (slot < capacity).select(capacity - slot, constant(0, U32)))
+    _fill(builder, (lane, column, row), slot, within, start, weight)
+
+
+def _fill(
+    builder: KernelBuilder, pixel: tuple[Value, Value, Value], slot: Value, count: Value, start: Value, weight: Value
+) -> None:
+    lane, column, row = pixel
+    queue = builder.buffer(QUEUEING, U32, writable=True)
+
+    def one(j: Value) -> None:
+        u, v = ((j.convert(F32) + 0.5) * step for step in SPREAD)
+        across, down = column.convert(F32) + (u - u.floor()), row.convert(F32) + (v - v.floor())
+        ray = pixel_ray(builder, *frame_coordinates(builder, across, down))
+        place = (slot + j) * WORDS
+        store(queue, place, lane)
+        for i, number in enumerate((*ray.origin, *ray.direction, start, weight, weight, weight)):
+            store(queue, place + i + 1, number.bitcast(U32))
+
+    for_(count, one)
