@@ -34,6 +34,7 @@ PARTS = {
     "gallery": (*ZEROSET,),
     "one-thread": (*ZEROSET, "--threads", "1", "--size", "1024", "barth-sextic", "barth-decic", "chmutov-14"),
     "memory": (*ZEROSET, "--memory"),
+    "light": (*ZEROSET, "--light", "--seconds", "2", "tangle", "barth-sextic"),
     "cold": (*ZEROSET, "--cold", "barth-sextic", "barth-decic", "tangle", "blobby", "blinn-blobby-30"),
     "peers": (sys.executable, str(ROOT / "bench" / "peers.py"), "--markdown"),
 }

@@ -11,12 +11,13 @@ from zeroset.bench.cold import CommandCost
 from zeroset.bench.frames import FrameCost, SurfaceCost
 from zeroset.bench.gpu import GpuCost, PassesCost
 from zeroset.bench.gpu_report import gpu_table, papers_table, passes_table
+from zeroset.bench.light import LightCost
 from zeroset.bench.machine import Machine
 from zeroset.bench.memory import MemoryCost
 from zeroset.bench.papers import PaperCost
 from zeroset.bench.table import Table
 
-Cost = SurfaceCost | MemoryCost | CommandCost | GpuCost | PassesCost | PaperCost
+Cost = SurfaceCost | MemoryCost | CommandCost | GpuCost | PassesCost | PaperCost | LightCost
 
 
 def table(costs: Sequence[Cost], machine: Machine) -> Table:
@@ -37,6 +38,8 @@ def table(costs: Sequence[Cost], machine: Machine) -> Table:
             return passes_table([cost for cost in costs if isinstance(cost, PassesCost)], machine)
         case PaperCost():
             return papers_table([cost for cost in costs if isinstance(cost, PaperCost)], machine)
+        case LightCost():
+            return _light_table([cost for cost in costs if isinstance(cost, LightCost)], machine)
         case CommandCost():
             return _command_table([cost for cost in costs if isinstance(cost, CommandCost)], machine)
 
@@ -82,6 +85,24 @@ def _memory_row(cost: MemoryCost) -> tuple[str, ...]:
     return cost.name, str(cost.frames), f"{cost.size}²", moved, growth, objects, str(cost.compilations)
 
 
+def _light_table(costs: Sequence[LightCost], machine: Machine) -> Table:
+    columns = ("surface", "with", "size", "plain", "frame", "× plain", "the papers' own")
+    notes = (
+        "Milliseconds, medians, one light, pixels fetched; plain and frame take turns. × plain: best by best.",
+        "The papers' own: what the same costs in K09 or SN10, where they say it.",
+        str(machine),
+    )
+    return Table("zeroset bench --light", columns, tuple(map(_light_row, costs)), notes)
+
+
+def _light_row(cost: LightCost) -> tuple[str, ...]:
+    if cost.plain is None or cost.frame is None or cost.ratio is None:
+        return (f"{cost.name}: {cost.error}", cost.feature, f"{cost.size}²", *[""] * 4)
+    goal = "-" if cost.goal is None else f"{cost.goal:.1f}"
+    times = f"{cost.plain.median:.2f}", f"{cost.frame.median:.2f}"
+    return cost.name, cost.feature, f"{cost.size}²", *times, f"{cost.ratio:.2f}", goal
+
+
 def _command_table(costs: Sequence[CommandCost], machine: Machine) -> Table:
     columns = ("formula of", "size", "cold", "warm", "python alone", "runs of each")
     note = "Whole process, formula to PNG, medians; cold and warm: disk cache empty, and with the formula in it."
@@ -104,6 +125,8 @@ def _plain(cost: Cost) -> dict[str, Any]:
     plain = dataclasses.asdict(cost)
     if isinstance(cost, SurfaceCost | GpuCost):
         plain["frames"] = [dataclasses.asdict(frame) | {"ratio": frame.ratio} for frame in cost.frames]
+    if isinstance(cost, LightCost):
+        plain["ratio"] = cost.ratio
     if isinstance(cost, PaperCost):
         # A table's other rows are said in theirs.
         del plain["reference"]["table"]["rates"]

@@ -50,6 +50,7 @@ class Wish:
 @click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
 @click.option("--seconds", default=0.5, show_default=True, type=click.FloatRange(0), help="Time for each size.")
 @click.option("--memory", "kind", flag_value="memory", help="Instead: growth and compilations over many frames.")
+@click.option("--light", "kind", flag_value="light", help="Instead: what shadows, mirrors, layers and edges cost.")
 @click.option("--cold", "kind", flag_value="cold", help="Instead: the whole command, from formula to PNG.")
 @click.option("--passes", "kind", flag_value="passes", help="Instead: each pass of a frame, by the GPU's own clock.")
 @click.option("--papers", "kind", flag_value="papers", help="Instead: frame rates beside those that papers print.")
@@ -86,7 +87,7 @@ def command(markdown: bool, json_file: str | None, **wish: object) -> None:
 
 def _collect(wish: Wish, devices: Devices) -> tuple[list[Cost], bool]:
     """What could be measured before it was all done, or before the user interrupted, and whether he did."""
-    kinds = {"memory": _memory, "cold": _cold, "passes": _passes, "papers": _papers}
+    kinds = {"memory": _memory, "cold": _cold, "passes": _passes, "papers": _papers, "light": _light}
     measure = kinds.get(wish.kind or "", _frames)
     costs: list[Cost] = []
     with Progress("timing") as progress:
@@ -112,6 +113,16 @@ def _frames(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> 
             yield measure_gpu(surface, sizes, wish.method, devices, devices.gpu, wish.seconds)
         else:
             yield measure(surface, sizes, wish.method, devices, wish.seconds)
+
+
+def _light(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:
+    from zeroset.bench.light import measure_light
+    from zeroset.shelf import gallery
+
+    for name, part in _parts(wish.names or (MEMORY_SURFACE,), progress):
+        for size in wish.sizes or (1024,):
+            part(0.0)
+            yield from measure_light(gallery[name], size, wish.method, devices.steady, wish.seconds)
 
 
 def _passes(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:

@@ -176,3 +176,17 @@ def test_mistakes_are_named_before_anything_is_timed(
     captured = capsys.readouterr()
     assert said in captured.err
     assert captured.out == ""
+
+
+def test_what_light_costs(zeroset: Run) -> None:
+    ran = zeroset("bench", "--light", "sphere", "-s", "32", "--seconds", "0", "--markdown")
+    assert (ran.status, ran.err) == (0, "")
+    rows = [line.split("|")[1:-1] for line in ran.out.splitlines() if line.startswith("| sphere")]
+    assert [row[1].strip() for row in rows] == [
+        "one shadow light",
+        "four layers",
+        "six reflections",
+        "glass",
+        "smooth edges, 16",
+    ]
+    assert all(float(row[5]) > 0 for row in rows)

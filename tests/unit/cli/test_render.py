@@ -171,3 +171,41 @@ def test_a_mistake_in_a_scene_file_has_file_and_line(text: str, said: str, zeros
     assert ran.status == 2
     assert said in ran.err
     assert not (tmp_path / "out.png").exists()
+
+
+def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
+    looks = {
+        "plain": (),
+        "shadows": ("--shadows",),
+        "sky": ("--environment", "sky"),
+        "glass": ("--opacity", "0.2", "--ior", "1.4", "--reflectance", "0.1"),
+        "smooth": ("--antialias", "8"),
+    }
+    drawn = {}
+    for name, options in looks.items():
+        ran = zeroset("render", "tangle", "-o", f"{name}.png", "-s", "48", "--save-scene", f"{name}.toml", *options)
+        assert (ran.status, ran.err) == (0, "")
+        drawn[name] = picture(tmp_path / f"{name}.png")
+    for name in looks:
+        assert name == "plain" or not np.array_equal(drawn["plain"], drawn[name])
+    glass = zs.load(tmp_path / "glass.toml").material
+    assert (glass.opacity, glass.ior, glass.reflectance) == (0.2, 1.4, 0.1)
+    assert zs.load(tmp_path / "shadows.toml").shadows
+    assert zs.load(tmp_path / "sky.toml").environment is not None
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "wrong"),
+    [("--opacity", "2", "opacity"), ("--environment", "rom", "did you mean room"), ("--antialias", "0", "antialias")],
+)
+def test_light_that_cannot_be(zeroset: Run, tmp_path: Path, option: str, value: str, wrong: str) -> None:
+    ran = zeroset("render", "tangle", "-o", "a.png", "-s", "16", option, value)
+    assert ran.status != 0
+    assert wrong in ran.err
+    assert "Traceback" not in ran.err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_gallery_name_that_begins_with_a_digit(zeroset: Run, tmp_path: Path) -> None:
+    assert zeroset("render", "4-bretzel", "-o", "a.png", "-s", "24").status == 0
+    assert zeroset("render", "4-x^2-y^2-z^2", "-o", "b.png", "-s", "24").status == 0
