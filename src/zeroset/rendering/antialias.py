@@ -12,6 +12,7 @@ from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, const
 from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, NORMAL, QUEUEING
 from zeroset.rendering.layout import frame_coordinates, lane_at, pixel_place, tile_of
 from zeroset.rendering.paths import WORDS
+from zeroset.rendering.primary import EMPTY_TILE
 from zeroset.rendering.view import pixel_ray
 from zeroset.shade.reflectance import dot
 from zeroset.solve.status import MISS, UNRESOLVED
@@ -57,8 +58,14 @@ def edge_kernel(beams: bool) -> Kernel:
         inside = (column < width) & (row < height)
         thin = load(builder.buffer("status", U32), lane).eq(UNRESOLVED)
         everywhere = builder.uniform("everywhere", U32).ne(0)
-        wanted = inside & ~thin & (everywhere | _at_edge(builder, column, row, width, height))
-        if_(wanted, lambda: _queue(builder, lane, column, row, beams))
+        # A tile that its beam has shown to be empty is smooth as it is.
+        start = load(builder.buffer("tile_start", F32), tile_of(lane)) if beams else constant(0.0, F32)
+
+        def look() -> None:
+            edge = everywhere | _at_edge(builder, column, row, width, height)
+            if_(edge, lambda: _queue(builder, lane, column, row, start))
+
+        if_(inside & ~thin & (start < EMPTY_TILE), look)
     return builder.kernel
 
 
@@ -77,7 +84,7 @@ def _at_edge(builder: KernelBuilder, column: Value, row: Value, width: Value, he
     return edge
 
 
-def _queue(builder: KernelBuilder, lane: Value, column: Value, row: Value, beams: bool) -> None:
+def _queue(builder: KernelBuilder, lane: Value, column: Value, row: Value, start: Value) -> None:
     """Begin a pixel's sum anew, and queue its rays; where there is no room it stays as it is."""
     samples, capacity = builder.uniform("samples", U32), builder.uniform("capacity", U32)
     counters = builder.buffer(COUNTERS, U32, writable=True)
@@ -86,11 +93,10 @@ def _queue(builder: KernelBuilder, lane: Value, column: Value, row: Value, beams
     sums, plane = builder.buffer(ACCUMULATED, U32, writable=True), builder.uniform("plane", U32)
 
     def begin() -> None:
-        for i in range(3):
-            store(sums, lane + plane * i, 0)
+        for i, value in enumerate((0, 0, 0, 1)):
+            store(sums, lane + plane * i, value)
 
     if_(room, begin)
-    start = load(builder.buffer("tile_start", F32), tile_of(lane)) if beams else constant(0.0, F32)
     # What is left of a queue that is full is filled with rays that count for nothing.
     weight = room.select(1.0 / samples.convert(F32), 0.0)
     within = room.select(samples, (slot < capacity).select(capacity - slot, constant(0, U32)))

@@ -56,7 +56,7 @@ class Bounces:
         def resolve() -> Kernel:
             from zeroset.rendering.paths import resolve_kernel
 
-            return resolve_kernel()
+            return resolve_kernel(optics.plain)
 
         def edges() -> Kernel:
             from zeroset.rendering.antialias import edge_kernel
@@ -66,9 +66,11 @@ class Bounces:
         if optics.smooth:
             tracer.add(f"edges {tracer.beams}", edges)
         own = f"{field.digest} {kind} {offset} {optics}"
-        self._names = f"path_first {own}", f"path {own}", "resolve"
+        self._names = f"path_first {own}", f"path {own}", f"resolve {optics.plain}"
+        self._plain = optics.plain
         for name, build in zip(self._names, (first, path, resolve), strict=True):
-            tracer.add(name, build)
+            if not (self._plain and build is first):
+                tracer.add(name, build)
         self._tracer = tracer
         self._device = device
         self._layout = layout
@@ -76,7 +78,7 @@ class Bounces:
         branching = (optics.mirror or optics.bends) and optics.through
         self._capacity = max(layout.lanes * (2 if branching else 1), 1 << 14)
         self._queues = [device.allocate(U32, self._capacity * WORDS) for _ in range(2)]
-        self._sums = device.allocate(U32, layout.lanes * 3)
+        self._sums = device.allocate(U32, layout.lanes * 4)
         self._counters = device.allocate(U32, MOST_DEEP + 2)
         self._data: dict[str, tuple[Any, npt.NDArray[np.float32]]] = {}
 
@@ -95,7 +97,7 @@ class Bounces:
             picture: where the bytes go.
             light: the lights, the surroundings, and how far rays are followed.
         """
-        first, _, resolve = (self._tracer.program(name) for name in self._names)
+        first, _, resolve = self._names
         lights, texels, depth = light.lights, light.texels, light.depth
         sides = {} if texels is None else {"face_side": round((texels.size / 18) ** 0.5)}
         common = {
@@ -112,15 +114,13 @@ class Bounces:
             buffers[TEXELS] = self._kept(TEXELS, texels)
         self._device.clear(self._sums)
         self._device.clear(self._counters)
-        first.run(
-            self._layout.lanes,
-            {**common, "next": 0, "goes_on": int(depth > 0)},
-            {**buffers, QUEUEING: self._queues[0]},
-        )
-        self._follow(depth, common, buffers)
+        if not self._plain:
+            numbers = {**common, "next": 0, "goes_on": int(depth > 0)}
+            self._tracer.program(first).run(self._layout.lanes, numbers, {**buffers, QUEUEING: self._queues[0]})
+            self._follow(depth, common, buffers)
         if light.samples > 1:
             self._smooth(light, common, buffers)
-        resolve.run(self._layout.lanes, common, {**buffers, PICTURE: picture})
+        self._tracer.program(resolve).run(self._layout.lanes, common, {**buffers, PICTURE: picture})
 
     def _follow(self, depth: int, common: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
         """Follow what is on the first queue over so many surfaces."""

@@ -97,12 +97,14 @@ class Frame:
         self.device = device
         self.lock = threading.Lock()
         optics = lighting.optics
-        self._tracer = Tracer(surface, method, device, True, shadows=lighting.shadows, ends=optics is not None)
+        ends = optics is not None and not optics.plain
+        self._tracer = Tracer(surface, method, device, True, shadows=lighting.shadows, ends=ends)
         self._shader = f"shade {lighting}"
         self._bounces: Bounces | None = None
-        if optics is None:
+        self._shades = optics is None or optics.plain
+        if self._shades:
             self._tracer.add(self._shader, shader)
-        else:
+        if optics is not None:
             self._bounces = Bounces(self._tracer, surface, method, optics, layout, device)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
@@ -154,12 +156,12 @@ class Frame:
             self._tracer.second_look(surface, uniforms, bound)
         if thin and not draft:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
-        if self._bounces is not None and light is not None:
-            self._bounces.run(uniforms, bound, self.picture, light)
-        else:
+        if self._shades:
             if light is not None and LIT in self._buffers:
                 self._tracer.shadows(light.shadows, uniforms, bound)
             self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
+        if self._bounces is not None and light is not None:
+            self._bounces.run(uniforms, bound, self.picture, light)
         self.device.submit()
         outputs = GBuffer(
             self.layout, self.device, {PICTURE: self.picture} | {name: self._buffers[name] for name in FIELDS}

@@ -239,8 +239,8 @@ class _Response:
             store(queue, slot * WORDS + i + 1, number.bitcast(U32))
 
 
-def resolve_kernel() -> Kernel:
-    """From sums to the picture's bytes."""
+def resolve_kernel(marked: bool) -> Kernel:
+    """From sums to the picture's bytes; ``marked``: only of pixels whose sums were begun anew."""
     with KernelBuilder("resolve") as builder:
         lane = builder.index()
         sums = builder.buffer(ACCUMULATED, U32)
@@ -249,6 +249,8 @@ def resolve_kernel() -> Kernel:
         column, row = pixel_place(builder, lane)
         width = builder.uniform("width", U32)
         inside = (column < width) & (row < builder.uniform("height", U32))
+        if marked:
+            inside = inside & load(sums, lane + plane * 3).ne(0)
         rgba = builder.buffer("rgba", U32, writable=True)
         packed = pack(color)
         if_(inside, lambda: store(rgba, row * width + column, packed))

@@ -50,6 +50,11 @@ class Optics:
     shadows: bool
     smooth: bool
 
+    @property
+    def plain(self) -> bool:
+        """Whether the first hit is all but at edges: then pixels are shaded as in any other frame."""
+        return not (self.through or self.mirror or self.sky)
+
     @classmethod
     def of(cls, scene: Scene, smooth: Smooth) -> Optics | None:
         """What a scene asks for; None where the first hit is all."""
@@ -80,10 +85,11 @@ class Lighting:
     def of(cls, scene: Scene, smooth: Smooth) -> Lighting:
         """The lighting of a scene."""
         optics = Optics.of(scene, smooth)
-        if optics is not None:
+        if optics is not None and not optics.plain:
             # There the lights are data.
             return cls("", False, optics)
-        return cls("".join("d" if light.position is None else "p" for light in scene.lights), scene.shadows)
+        kinds = "".join("d" if light.position is None else "p" for light in scene.lights)
+        return cls(kinds, scene.shadows, optics)
 
 
 @dataclass(frozen=True, slots=True)
