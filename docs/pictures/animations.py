@@ -9,7 +9,6 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
 import zeroset as zs
 from zeroset.export.film.gif import write_gif
@@ -19,18 +18,12 @@ from zeroset.export.film.storyboard import storyboard
 CELL, COLUMNS, FRAMES = 128, 3, 24
 
 
-def smooth(scene: zs.Scene) -> npt.NDArray[np.uint8]:
-    """A picture drawn twice as large and averaged, in light and not in its encoding."""
-    light = (zs.render(scene, 2 * CELL).pixels / 255.0) ** 2.2
-    return np.rint(255 * light.reshape(CELL, 2, CELL, 2, 3).mean(axis=(1, 3)) ** (1 / 2.2)).astype(np.uint8)
-
-
 def main() -> None:
     """Draw the six of them in two rows."""
     movies = []
     for item in filter(None, map(find, names())):
         scenes = storyboard(item.scene, FRAMES, item.vary, orbit=item.orbit)
-        movies.append(np.stack([smooth(scene) for scene in scenes]))
+        movies.append(np.stack([zs.render(scene, CELL, antialias=16).pixels for scene in scenes]))
     rows = [np.concatenate(movies[i : i + COLUMNS], axis=2) for i in range(0, len(movies), COLUMNS)]
     frames = list(np.concatenate(rows, axis=1))
     write_gif(Path(__file__).with_name("animations.gif"), frames, Fraction(10), "none", lambda _: None)

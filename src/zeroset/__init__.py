@@ -17,6 +17,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from zeroset import errors, methods
     from zeroset.errors import ZerosetError
+    from zeroset.export.animate import animate
+    from zeroset.export.mesh import mesh
+    from zeroset.export.triangles import Mesh
     from zeroset.rendering.cast import Hits, cast
     from zeroset.rendering.image import Image
     from zeroset.rendering.render import render
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
     from zeroset.scene.scene import Scene
     from zeroset.scene.surface import Surface, surface
     from zeroset.shelf import gallery
+    from zeroset.view.show import show
 
 MISS: int = 0
 HIT: int = 1
@@ -45,17 +49,21 @@ __all__ = [
     "Image",
     "Light",
     "Material",
+    "Mesh",
     "Scene",
     "Surface",
     "ZerosetError",
     "__version__",
+    "animate",
     "cast",
     "errors",
     "gallery",
     "load",
+    "mesh",
     "methods",
     "render",
     "save",
+    "show",
     "surface",
 ]
 
@@ -67,14 +75,18 @@ _HOMES = {
     "Image": "zeroset.rendering.image",
     "Light": "zeroset.scene.light",
     "Material": "zeroset.scene.light",
+    "Mesh": "zeroset.export.triangles",
     "Scene": "zeroset.scene.scene",
     "Surface": "zeroset.scene.surface",
     "ZerosetError": "zeroset.errors",
+    "animate": "zeroset.export.animate",
     "cast": "zeroset.rendering.cast",
     "gallery": "zeroset.shelf",
     "load": "zeroset.scene.file",
+    "mesh": "zeroset.export.mesh",
     "render": "zeroset.rendering.render",
     "save": "zeroset.scene.file",
+    "show": "zeroset.view.show",
     "surface": "zeroset.scene.surface",
 }
 

@@ -21,6 +21,7 @@ COMMANDS = {
     "render": "Draw a formula, a gallery surface or a scene file.",
     "view": "Show a surface in a window: turn it, type another formula.",
     "mesh": "Make triangles of a surface: STL, OBJ, PLY or GLB.",
+    "animate": "Draw a surface as it changes: a movie, or numbered pictures.",
     "gallery": "List the named surfaces, or draw them all on one sheet.",
     "explain": "Show a formula, its kernels after each pass, and the target code.",
     "bench": "Time the gallery on this machine.",
@@ -87,7 +88,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 _ARGUMENT = re.compile(
-    r"\b(bounds|method|device|precision|up|eye)=(?:'([^']*)'|\"([^\"]*)\"|\(([^)]*)\)|([-+.\deE]*\d))"
+    r"\b(bounds|method|device|precision|up|eye|orbit)=(?:'([^']*)'|\"([^\"]*)\"|\(([^)]*)\)|([-+.\deE]*\d))"
 )
 
 
@@ -105,4 +106,7 @@ def as_options(message: str) -> str:
 def _translated(hint: str) -> str:
     hint = re.sub(r"params=\{'(\w+)': \[([^]]*)\]\}", lambda m: f"-p {m[1]}={m[2].replace(' ', '')}", hint)
     hint = re.sub(r"params=\{'(\w+)': ([^}]*)\}", r"-p \1=\2", hint)
+    hint = re.sub(r"vary=\{'(\w+)': \(([^,]*), ([^)]*)\)\}", r"--vary \1=\2:\3", hint).replace(
+        "restart=True", "--restart"
+    )
     return _ARGUMENT.sub(lambda m: f"--{m[1]} {''.join(filter(None, m.groups()[1:])).replace(' ', '')}", hint)

@@ -32,7 +32,10 @@ def find_scene(source: str, params: tuple[str, ...] = (), bounds: str | None = N
 
         return _changed(load(source), values, limits)
     # A gallery name has only letters, digits and hyphens, and its first part two letters or a digit alone (4-bretzel).
-    if re.fullmatch(r"([a-z]{2,}[a-z0-9]*|\d+-[a-z]{2,})(-[a-z0-9.]+)*", source) and (named := _named(source, values)) is not None:
+    if (
+        re.fullmatch(r"([a-z]{2,}[a-z0-9]*|\d+-[a-z]{2,})(-[a-z0-9.]+)*", source)
+        and (named := _named(source, values)) is not None
+    ):
         return _changed(named, values, limits)
     return Scene(surface(source, values, limits))
 
