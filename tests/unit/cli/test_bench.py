@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.gpus import needs_gpu
@@ -178,7 +179,7 @@ def test_mistakes_are_named_before_anything_is_timed(
     assert captured.out == ""
 
 
-def test_what_light_costs(zeroset: Run) -> None:
+def test_what_light_costs(zeroset: Any) -> None:
     ran = zeroset("bench", "--light", "sphere", "-s", "32", "--seconds", "0", "--markdown")
     assert (ran.status, ran.err) == (0, "")
     rows = [line.split("|")[1:-1] for line in ran.out.splitlines() if line.startswith("| sphere")]
