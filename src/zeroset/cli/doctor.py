@@ -25,6 +25,11 @@ NEEDED = {
 OPTIONAL = {
     "sympy": "SymPy expressions as surfaces: pip install 'zeroset[sympy]'",
     "trimesh": "mesh files: pip install 'zeroset[export]'",
+    "av": "MP4 movies: pip install 'zeroset[export]'",
+    "rendercanvas": "the window: pip install 'zeroset[desktop]', or 'zeroset[notebook]' in a notebook",
+    "imgui-bundle": "the window's panels: likewise",
+    "glfw": "the window on a desktop: pip install 'zeroset[desktop]'",
+    "anywidget": "the window in a notebook: pip install 'zeroset[notebook]'",
 }
 
 
@@ -56,9 +61,9 @@ def _packages() -> Iterator[str]:
     for names, kind in ((NEEDED, "MISSING, needed for"), (OPTIONAL, "not installed, optional, for")):
         for name, purpose in names.items():
             try:
-                yield f"  {name:9} {importlib.metadata.version(name)}"
+                yield f"  {name:12} {importlib.metadata.version(name)}"
             except importlib.metadata.PackageNotFoundError:
-                yield f"  {name:9} {kind} {purpose}"
+                yield f"  {name:12} {kind} {purpose}"
 
 
 def _cpu() -> Iterator[str]:
