@@ -79,7 +79,7 @@ def test_it_says_what_is_missing_and_why(zeroset: Run, monkeypatch: pytest.Monke
     ran = zeroset("doctor")
     registry._best.cache_clear()
     assert ran.status == 0
-    assert "rich      MISSING, needed for progress" in ran.out
-    assert "sympy     not installed, optional" in ran.out
+    assert "rich         MISSING, needed for progress" in ran.out
+    assert "sympy        not installed, optional" in ran.out
     assert "cpu       MISSING: LLVM cannot be loaded" in ran.out
     assert "trial    FAILED" in ran.out
