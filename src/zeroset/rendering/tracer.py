@@ -196,6 +196,10 @@ class Tracer:
         if self.beams:
             self._device.clear(buffers["block_missed"])
             self.program("beams").run(tiles, uniforms, bound)
+            coming = self._coming.get("first")
+            if coming is not None and not coming.done():
+                # A driver that compiles when a shader first runs may do so while the next one is being written.
+                self._device.submit()
         return bound
 
     def first_look(self, uniforms: Mapping[str, float], bound: Buffers, first: int, count: int) -> None:
