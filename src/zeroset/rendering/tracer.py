@@ -157,7 +157,8 @@ class Tracer:
         missing = [name for name in wanted if name not in self._begun]
         if not missing:
             return
-        pool = ThreadPoolExecutor(2)
+        # A draft on a GPU: the driver compiles the first shader while the second is traced, one tracing at a time.
+        pool = ThreadPoolExecutor(1 if draft and self._device.name == "gpu" else 2)
         for name in missing:
             self._begun.add(name)
             self._coming[name] = pool.submit(self._compiled, name)
