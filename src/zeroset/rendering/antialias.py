@@ -9,9 +9,8 @@ edges can. Pixels that are drawn because something thinner than a pixel lies in 
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, for_, if_, load, store
-from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, NORMAL, QUEUEING
+from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, NORMAL, QUEUE_WORDS, QUEUEING
 from zeroset.rendering.layout import frame_coordinates, lane_at, pixel_place, tile_of
-from zeroset.rendering.paths import WORDS
 from zeroset.rendering.primary import EMPTY_TILE
 from zeroset.rendering.view import pixel_ray
 from zeroset.shade.reflectance import dot
@@ -113,7 +112,7 @@ def _fill(
         u, v = ((j.convert(F32) + 0.5) * step for step in SPREAD)
         across, down = column.convert(F32) + (u - u.floor()), row.convert(F32) + (v - v.floor())
         ray = pixel_ray(builder, *frame_coordinates(builder, across, down))
-        place = (slot + j) * WORDS
+        place = (slot + j) * QUEUE_WORDS
         store(queue, place, lane)
         for i, number in enumerate((*ray.origin, *ray.direction, start, weight, weight, weight)):
             store(queue, place + i + 1, number.bitcast(U32))

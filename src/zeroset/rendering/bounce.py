@@ -10,7 +10,17 @@ import numpy.typing as npt
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, U32
-from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, LIGHTS, PICTURE, QUEUED, QUEUEING, TEXELS
+from zeroset.rendering.buffers import (
+    ACCUMULATED,
+    COUNTERS,
+    LIGHT_WORDS,
+    LIGHTS,
+    PICTURE,
+    QUEUE_WORDS,
+    QUEUED,
+    QUEUEING,
+    TEXELS,
+)
 from zeroset.rendering.layout import Layout
 from zeroset.rendering.shading import Illumination, Optics
 from zeroset.rendering.tracer import Tracer
@@ -19,7 +29,6 @@ from zeroset.scene.bounds import bounds_kind
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
-WORDS = 12
 TILE_LANES = 64
 MOST_DEEP = 32
 """Runs in a row: surfaces that one ray may meet after the first."""
@@ -77,7 +86,7 @@ class Bounces:
         # A pixel seldom has more than one ray under way, and almost never more than two.
         branching = (optics.mirror or optics.bends) and optics.through
         self._capacity = max(layout.lanes * (2 if branching else 1), 1 << 14)
-        self._queues = [device.allocate(U32, self._capacity * WORDS) for _ in range(2)]
+        self._queues = [device.allocate(U32, self._capacity * QUEUE_WORDS) for _ in range(2)]
         self._sums = device.allocate(U32, layout.lanes * 4)
         self._counters = device.allocate(U32, MOST_DEEP + 2)
         self._data: dict[str, tuple[Any, npt.NDArray[np.float32]]] = {}
@@ -103,7 +112,7 @@ class Bounces:
         common = {
             **uniforms,
             **sides,
-            "lights": len(lights) // 8,
+            "lights": len(lights) // LIGHT_WORDS,
             "capacity": self._capacity,
             "plane": self._layout.lanes,
             "farthest": FARTHEST,

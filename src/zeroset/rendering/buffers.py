@@ -22,10 +22,14 @@ END = ("clear", "end")
 """Up to where a ray met nothing, and where what it met is behind it; for frames whose rays go on."""
 QUEUED, QUEUEING = "queued", "queueing"
 """The rays that a run of paths takes, and those that it sends on."""
+QUEUE_WORDS = 12
+"""Words of a queued ray: pixel, origin, direction, start, weight, and one that is not used."""
 ACCUMULATED = "accumulated"
 """Each pixel's sums of red, green and blue."""
 LIGHTS = "light_data"
 """The lights' places and colours."""
+LIGHT_WORDS = 8
+"""Numbers of a light: place, whether it is near, colour, and one that is not used."""
 TEXELS = "texels"
 """The environment's cube map."""
 LIT = "lit"

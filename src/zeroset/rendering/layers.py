@@ -12,8 +12,8 @@ from dataclasses import replace
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, load, store, while_
 from zeroset.rendering.buffers import FROM, NOTHING, ONWARD, SECOND
 from zeroset.rendering.gbuffer import ask_second_look, behind, write
-from zeroset.rendering.primary import EMPTY_TILE, FINER, camera_ray, given_ray, problem_on, t_range
-from zeroset.solve.field import Field, Lowered, Ray
+from zeroset.rendering.primary import EMPTY_TILE, camera_ray, given_ray, in_doubles, problem_on, t_range
+from zeroset.solve.field import Field, Lowered
 from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
@@ -56,13 +56,10 @@ def second_layer_kernel(field: Field, offset: bool, kind: str, pixels: bool) -> 
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
         rough = problem_on(builder, lowered, kind, ray, near.maximum(start), far, None)
-        exact = Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))
-        earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
-        t0, t1, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
-        problem = Problem(lowered, exact, t0, t1, tolerance * FINER, tolerance * 4.0)
+        problem = in_doubles(rough, clear)
         system = automatic_system(field, problem.fmt)
         answer = beyond(problem, lambda p: search(p, system, Striding()), start.convert(F64))
-        write(builder, lowered, lane, exact, answer)
+        write(builder, lowered, lane, problem.ray, answer)
         _go_on(builder, lane, answer)
     return builder.kernel
 

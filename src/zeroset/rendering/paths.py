@@ -15,27 +15,33 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from zeroset.kernel import BOOL, F32, U32, Kernel, KernelBuilder, Value, atomic, constant, for_, if_, load, store
-from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, END, LIGHTS, NORMAL, QUEUED, QUEUEING, TEXELS
+from zeroset.rendering.buffers import (
+    ACCUMULATED,
+    COUNTERS,
+    END,
+    LIGHT_WORDS,
+    LIGHTS,
+    NORMAL,
+    QUEUE_WORDS,
+    QUEUED,
+    QUEUEING,
+    TEXELS,
+)
 from zeroset.rendering.gbuffer import behind, facing_back
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
 from zeroset.rendering.primary import problem_on
 from zeroset.rendering.shading import Optics
+from zeroset.rendering.shadow import way_is_free
 from zeroset.rendering.view import pixel_ray
-from zeroset.scene.clip import clip
 from zeroset.shade.environment import cube_color
 from zeroset.shade.reflectance import Face, dot, face, normalised
 from zeroset.shade.tone import encode, pack
 from zeroset.solve.field import Field, Lowered, Ray
-from zeroset.solve.problem import Problem
 from zeroset.solve.search import search
 from zeroset.solve.status import MISS
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
-WORDS = 12
-"""Words of a queue's entry: pixel, origin, direction, start, weight."""
-LIGHT_WORDS = 8
-"""Numbers of a light: place, whether it is near, colour, and one that is not used."""
 UNIT = float(1 << 20)
 """What a full channel counts in a pixel's sum; 4,096 times as much fits."""
 BRIGHTEST = 1024.0
@@ -97,7 +103,7 @@ def path_kernel(field: Field, offset: bool, kind: str, optics: Optics) -> Kernel
 
 def _follow(builder: KernelBuilder, place: Value, field: Field, offset: bool, kind: str, optics: Optics) -> None:
     queue = builder.buffer(QUEUED, U32)
-    words = [load(queue, place * WORDS + i) for i in range(WORDS - 1)]
+    words = [load(queue, place * QUEUE_WORDS + i) for i in range(QUEUE_WORDS - 1)]
     numbers = [word.bitcast(F32) for word in words[1:]]
     ray = Ray(tuple(numbers[:3]), tuple(numbers[3:6]))
     start, weight = numbers[6], (numbers[7], numbers[8], numbers[9])
@@ -177,22 +183,13 @@ class _Response:
             toward = [p - q * near for p, q in zip((x, y, z), point, strict=True)]
             light = normalised(toward)
             if self.optics.shadows:
-                reached = self._reached(point, toward, dot(seen.normal, light) > 0.0)
+                facing = dot(seen.normal, light) > 0.0
+                reached = way_is_free(self.builder, self.lowered, self.kind, point, toward, facing)
                 tint = [reached.select(c, 0.0) for c in tint]
             lit: tuple[Value, ...] = seen.lit(color, light, tint)
             return lit
 
         return for_(self.builder.uniform("lights", U32), one, *seen.ambient)
-
-    def _reached(self, point: Sequence[Value], toward: Sequence[Value], wanted: Value) -> Value:
-        """Whether the way from a light is proven to be free."""
-        tolerance = self.uniform("shadow_tolerance") / dot(toward, toward).maximum(1e-30).sqrt()
-        way = Ray(tuple(x + v for x, v in zip(point, toward, strict=True)), tuple(-v for v in toward))
-        start, end = clip(self.builder, self.kind, way.origin, way.direction)
-        start, end = start.maximum(0.0), end.minimum(1.0 - tolerance * 2.0)
-        problem = Problem(self.lowered, way, start, end, tolerance, (end - start) * 0.125)
-        answer = search(problem, automatic_system(self.lowered.field, problem.fmt), Striding(), wanted)
-        return answer.status.eq(MISS)
 
     def _bent(
         self, normal: Sequence[Value], toward_eye: Sequence[Value], seen: Sequence[Value]
@@ -234,9 +231,9 @@ class _Response:
     def _store(self, slot: Value, onward: _Carried) -> None:
         queue = self.builder.buffer(QUEUEING, U32, writable=True)
         numbers = (*onward.ray.origin, *onward.ray.direction, onward.start, *onward.weight)
-        store(queue, slot * WORDS, onward.pixel)
+        store(queue, slot * QUEUE_WORDS, onward.pixel)
         for i, number in enumerate(numbers):
-            store(queue, slot * WORDS + i + 1, number.bitcast(U32))
+            store(queue, slot * QUEUE_WORDS + i + 1, number.bitcast(U32))
 
 
 def resolve_kernel(marked: bool) -> Kernel:

@@ -102,17 +102,27 @@ def second_kernel(field: Field, offset: bool, kind: str, pixels: bool, ends: boo
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
         rough = problem_on(builder, lowered, kind, ray, near, far, None)
-        exact = Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))
-        # A little earlier than where the first look got stuck, to learn the sign that f has there.
-        earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
-        start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
-        # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
-        problem = Problem(lowered, exact, start, end, tolerance * FINER, tolerance * 4.0)
+        problem = in_doubles(rough, clear)
         answer = search(problem, automatic_system(field, problem.fmt), Striding())
         # Even where it stays unresolved, f64 comes closer to a double root than f32 could see.
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
-        write(builder, lowered, lane, exact, replace(answer, steps=spent), ends)
+        write(builder, lowered, lane, problem.ray, replace(answer, steps=spent), ends)
     return builder.kernel
+
+
+def in_doubles(rough: Problem, clear: Value) -> Problem:
+    """The search that got stuck in f32, once more in f64 and in finer steps.
+
+    Args:
+        rough: the search in f32, whose ``lowered`` is f in f64.
+        clear: up to where it had proven that there is nothing.
+    """
+    ray = Ray(tuple(v.convert(F64) for v in rough.ray.origin), tuple(v.convert(F64) for v in rough.ray.direction))
+    # A little earlier than where the first look got stuck, to learn the sign that f has there.
+    earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
+    start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
+    # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
+    return Problem(rough.lowered, ray, start, end, tolerance * FINER, tolerance * 4.0)
 
 
 def beam_kernel(field: Field, offset: bool, kind: str) -> Kernel:

@@ -7,7 +7,9 @@ wanted, so the tolerance may be far coarser than the picture's. A point is lit w
 
 from __future__ import annotations
 
-from zeroset.kernel import F32, U32, Kernel, KernelBuilder, constant, load, store
+from collections.abc import Sequence
+
+from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, constant, load, store
 from zeroset.rendering.buffers import LIT, NORMAL
 from zeroset.rendering.layout import pixel_coordinates
 from zeroset.rendering.view import pixel_ray
@@ -44,15 +46,35 @@ def shadow_kernel(field: Field, offset: bool, kind: str) -> Kernel:
         turned = dot(normal, toward) * dot(normal, ray.direction) > 0.0
         wanted = load(builder.buffer("status", U32), lane).ne(MISS) & ~turned
 
-        length = dot(toward, toward).maximum(1e-30).sqrt()
-        tolerance = builder.uniform("shadow_tolerance", F32) / length
-        way = Ray(tuple(x + v for x, v in zip(point, toward, strict=True)), tuple(-v for v in toward))
-        start, end = clip(builder, kind, way.origin, way.direction)
-        start, end = start.maximum(0.0), end.minimum(1.0 - tolerance * CLEAR)
-        problem = Problem(lowered, way, start, end, tolerance, (end - start) * 0.125)
-        answer = search(problem, automatic_system(field, problem.fmt), Striding(), wanted)
-
+        free = wanted & way_is_free(builder, lowered, kind, point, toward, wanted)
         lit = builder.buffer(LIT, U32, writable=True)
-        reached = (wanted & answer.status.eq(MISS)).select(builder.uniform("bit", U32), constant(0, U32))
+        reached = free.select(builder.uniform("bit", U32), constant(0, U32))
         store(lit, lane, load(lit, lane) | reached)
     return builder.kernel
+
+
+def way_is_free(
+    builder: KernelBuilder,
+    lowered: Lowered,
+    kind: str,
+    point: Sequence[Value],
+    toward: Sequence[Value],
+    wanted: Value,
+) -> Value:
+    """Whether it is proven that nothing lies between a light and a point.
+
+    Args:
+        builder: of the kernel, for the bounds and the uniform ``shadow_tolerance``.
+        lowered: f.
+        kind: of bounds.
+        point: on the surface.
+        toward: from there to the light.
+        wanted: lanes that ask; the others search nothing.
+    """
+    length = dot(toward, toward).maximum(1e-30).sqrt()
+    tolerance = builder.uniform("shadow_tolerance", F32) / length
+    way = Ray(tuple(x + v for x, v in zip(point, toward, strict=True)), tuple(-v for v in toward))
+    start, end = clip(builder, kind, way.origin, way.direction)
+    start, end = start.maximum(0.0), end.minimum(1.0 - tolerance * CLEAR)
+    problem = Problem(lowered, way, start, end, tolerance, (end - start) * 0.125)
+    return search(problem, automatic_system(lowered.field, problem.fmt), Striding(), wanted).status.eq(MISS)
