@@ -13,14 +13,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.rendering.buffers import FIELDS
+from zeroset.rendering.buffers import FIELDS, QUEUE_WORDS
 from zeroset.rendering.frame import GBuffer
 from zeroset.rendering.layout import TILE, Layout
+from zeroset.rendering.shading import Optics
 from zeroset.runtime import Device
 from zeroset.scene.camera import Rays
-
-LARGEST_ELEMENT = 4
-"""Bytes of one pixel in the largest of a frame's buffers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,14 +44,19 @@ class Band:
         return Rays(*[(float(v[0]), float(v[1]), float(v[2])) for v in (*vectors, *directions)])
 
 
-def fits(layout: Layout, device: Device) -> bool:
+def largest_element(optics: Optics | None) -> int:
+    """Bytes of one pixel in the largest of a frame's buffers: the queue, where rays go on."""
+    return 4 if optics is None else 4 * QUEUE_WORDS * optics.rays_a_pixel
+
+
+def fits(layout: Layout, device: Device, optics: Optics | None = None) -> bool:
     """Whether a device has buffers for a picture of this size."""
-    return layout.lanes * LARGEST_ELEMENT <= device.largest
+    return layout.lanes * largest_element(optics) <= device.largest
 
 
-def bands(layout: Layout, device: Device) -> Iterator[Band]:
+def bands(layout: Layout, device: Device, optics: Optics | None = None) -> Iterator[Band]:
     """The bands of a picture, from the top, as many rows in each as the device has room for."""
-    row_of_tiles = layout.columns * TILE * TILE * LARGEST_ELEMENT
+    row_of_tiles = layout.columns * TILE * TILE * largest_element(optics)
     height = max(device.largest // row_of_tiles, 1) * TILE
     for top in range(0, layout.height, height):
         yield Band(top, Layout(layout.width, min(height, layout.height - top)))

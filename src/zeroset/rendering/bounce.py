@@ -83,9 +83,7 @@ class Bounces:
         self._tracer = tracer
         self._device = device
         self._layout = layout
-        # A pixel seldom has more than one ray under way, and almost never more than two.
-        branching = (optics.mirror or optics.bends) and optics.through
-        self._capacity = max(layout.lanes * (2 if branching else 1), 1 << 14)
+        self._capacity = max(layout.lanes * optics.rays_a_pixel, 1 << 14)
         self._queues = [device.allocate(U32, self._capacity * QUEUE_WORDS) for _ in range(2)]
         self._sums = device.allocate(U32, layout.lanes * 4)
         self._counters = device.allocate(U32, MOST_DEEP + 2)

@@ -110,7 +110,8 @@ def render(
     shown.check_work()
     target = get_device(device)
     smooth = _smooth(antialias, samples)
-    whole, lighting = fits(layout, target), Lighting.of(scene, smooth)
+    lighting = Lighting.of(scene, smooth)
+    whole = fits(layout, target, lighting.optics)
     # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, lighting, layout, target, draft) if whole else None
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
@@ -127,7 +128,7 @@ def render(
             outputs = frame.draw(shown, uniforms, thin, progress, draft, light)
     else:
         outputs = Assembled(layout)
-        parts = tuple(bands(layout, target))
+        parts = tuple(bands(layout, target, lighting.optics))
         for i, band in enumerate(parts):
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
             part = frame_for(shown, chosen, lighting, band.layout, target, draft)

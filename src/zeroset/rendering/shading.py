@@ -51,6 +51,11 @@ class Optics:
     smooth: bool
 
     @property
+    def rays_a_pixel(self) -> int:
+        """How many rays of a pixel the queue has room for: seldom more than one is under way, almost never two."""
+        return 2 if (self.mirror or self.bends) and self.through else 1
+
+    @property
     def plain(self) -> bool:
         """Whether the first hit is all but at edges: then pixels are shaded as in any other frame."""
         return not (self.through or self.mirror or self.sky)

@@ -62,3 +62,27 @@ def test_a_draft_leaves_out_what_few_pixels_need() -> None:
     assert whole.hits > draft.hits
     missing = (whole.aov("status") != zs.MISS) & (draft.aov("status") == zs.MISS)
     assert np.all(whole.aov("status")[missing] == zs.UNRESOLVED)
+
+
+class Queueing(CpuDevice):
+    """A CPU whose largest buffer is a queue for 2,048 tiles."""
+
+    largest = 2048 * TILE_BYTES * 12
+
+
+def test_rays_that_go_on_need_larger_buffers(monkeypatch: pytest.MonkeyPatch) -> None:
+    device = Queueing()
+    allocated: list[int] = []
+    allocate = CpuDevice.allocate
+
+    def counted(self: CpuDevice, type_: object, count: int) -> object:
+        allocated.append(count * 4)
+        return allocate(self, type_, count)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Queueing, "allocate", counted)
+    look = {"material": zs.Material(opacity=0.3, reflectance=0.2), "environment": "sky"}
+    whole = zs.render(zs.gallery["tangle"], 400, device="cpu", **look)  # type: ignore[arg-type]
+    parts = zs.render(zs.gallery["tangle"], 400, device=device, **look)  # type: ignore[arg-type]
+    assert max(allocated) <= device.largest
+    apart = np.abs(np.asarray(whole).astype(int) - np.asarray(parts)).max(axis=-1)
+    assert np.mean(apart > 8) < 0.002
