@@ -20,6 +20,7 @@ from zeroset.cli.source import (
     read_method,
     read_size,
     surface_options,
+    with_isovalues,
 )
 
 if TYPE_CHECKING:
@@ -40,10 +41,13 @@ if TYPE_CHECKING:
 @click.option("--fov", type=float, help="Opening angle in degrees, for perspective.")
 @click.option("--height", type=float, help="World length across the picture, for an orthographic camera.")
 @click.option("--orbit", type=float, default=0.0, help="Turn the camera about z by so many degrees.")
+@click.option("--isovalues", metavar="V,V,...", help="Draw f = v for each of these values, instead of f = 0.")
 @look_options
 @click.option("--save-scene", metavar="FILE", help="Write the scene as a .toml file too.")
 @click.option(
-    "--save-outputs", metavar="FILE", help="Write depth, normal, status, steps and t as a NumPy .npz file too."
+    "--save-outputs",
+    metavar="FILE",
+    help="Write depth, normal, status, steps and t (and part, where there are several) as a NumPy .npz file too.",
 )
 def command(
     source: str,
@@ -61,6 +65,7 @@ def command(
     fov: float | None,
     height: float | None,
     orbit: float,
+    isovalues: str | None,
     save_scene: str | None,
     save_outputs: str | None,
     **look: Any,
@@ -74,7 +79,7 @@ def command(
     for extra in (save_scene, save_outputs):
         if extra is not None:
             existing_folder(extra)
-    scene = find_scene(source, params, bounds)
+    scene = with_isovalues(find_scene(source, params, bounds), isovalues)
     scene = with_look(scene, look)
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     # What writes pictures is loaded while the compiler works, outside Python's lock.
@@ -116,7 +121,8 @@ def _save(image: Image, scene: Scene, path: Path, save_scene: str | None, save_o
         from zeroset.rendering.image import AOVS
 
         with replacing(save_outputs) as file:
-            outputs: dict[str, Any] = {name: image.aov(name) for name in AOVS}
+            names = (name for name in AOVS if name != "part" or len(scene.materials) > 1)
+            outputs: dict[str, Any] = {name: image.aov(name) for name in names}
             np.savez_compressed(file, **outputs)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.rendering.buffers import FIELDS, QUEUE_WORDS
+from zeroset.rendering.buffers import QUEUE_WORDS, fields
 from zeroset.rendering.frame import GBuffer
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import Optics
@@ -65,9 +65,9 @@ def bands(layout: Layout, device: Device, optics: Optics | None = None) -> Itera
 class Assembled:
     """The outputs of all bands of a picture, on the host; what ``GBuffer`` is to a picture drawn at once."""
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: Layout, parts: int = 1) -> None:
         shape = (layout.height, layout.width)
-        self._rows = {name: np.zeros(shape, type_.dtype) for name, type_ in FIELDS.items()}
+        self._rows = {name: np.zeros(shape, type_.dtype) for name, type_ in fields(parts).items()}
         self._picture = np.zeros((*shape, 4), np.uint8)
 
     def add(self, band: Band, outputs: GBuffer) -> None:
@@ -76,6 +76,10 @@ class Assembled:
         for name, rows in self._rows.items():
             rows[place] = outputs.rows(name)
         self._picture[place] = outputs.picture()
+
+    def has(self, name: str) -> bool:
+        """Whether there is such an output."""
+        return name in self._rows
 
     def rows(self, name: str) -> npt.NDArray[Any]:
         """One output in rows."""

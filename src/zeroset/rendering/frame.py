@@ -10,7 +10,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,13 +20,14 @@ import numpy.typing as npt
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import U32
 from zeroset.rendering.bounce import Bounces
-from zeroset.rendering.buffers import COUNTERS, FIELDS, LIT, PICTURE
+from zeroset.rendering.buffers import COUNTERS, LIT, MATERIALS, PICTURE, fields
+from zeroset.rendering.drawn import Drawn
 from zeroset.rendering.layout import TILE, Layout
+from zeroset.rendering.materials import Table, material_table
 from zeroset.rendering.shading import Illumination, Lighting
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device
-from zeroset.scene.bounds import bounds_kind
-from zeroset.scene.surface import Surface
+from zeroset.scene.light import Material
 from zeroset.solve.method import Method
 
 Progress = Callable[[float], None]
@@ -42,9 +43,8 @@ MOST_AT_ONCE = 1 << 20
 class Structure:
     """What shapes a frame's kernels and buffers."""
 
-    field: str
+    shape: str
     method: str
-    bounds: str
     lighting: Lighting
     layout: Layout
     device: int
@@ -58,6 +58,10 @@ class GBuffer:
         self._device = device
         self._buffers = buffers
         self._lock = threading.Lock()
+
+    def has(self, name: str) -> bool:
+        """Whether there is such an output."""
+        return name in self._buffers
 
     def rows(self, name: str) -> npt.NDArray[Any]:
         """One output in rows."""
@@ -81,7 +85,7 @@ class Frame:
 
     def __init__(
         self,
-        surface: Surface,
+        drawn: Drawn,
         method: Method,
         lighting: Lighting,
         layout: Layout,
@@ -91,23 +95,25 @@ class Frame:
         def shader() -> Kernel:
             from zeroset.rendering.shade import shade_kernel
 
-            return shade_kernel(lighting)
+            return shade_kernel(lighting, drawn.parts)
 
         self.layout = layout
         self.device = device
         self.lock = threading.Lock()
         optics = lighting.optics
         ends = optics is not None and not optics.plain
-        self._tracer = Tracer(surface, method, device, True, shadows=lighting.shadows, ends=ends)
-        self._shader = f"shade {lighting}"
+        self._tracer = Tracer(drawn, method, device, True, shadows=lighting.shadows, ends=ends)
+        self._shader = f"shade {lighting} {drawn.parts > 1}"
         self._bounces: Bounces | None = None
         self._shades = optics is None or optics.plain
         if self._shades:
             self._tracer.add(self._shader, shader)
         if optics is not None:
-            self._bounces = Bounces(self._tracer, surface, method, optics, layout, device)
+            self._bounces = Bounces(self._tracer, drawn, method, optics, layout, device)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
+        self._fields = fields(drawn.parts)
+        self._materials = Table(device)
         self.picture = device.allocate(U32, layout.width * layout.height)
         """The picture's pixels in rows, for those who show them without reading them."""
         self._shown: weakref.ref[GBuffer] | None = None
@@ -122,27 +128,31 @@ class Frame:
 
     def draw(
         self,
-        surface: Surface,
+        drawn: Drawn,
         uniforms: Mapping[str, float],
         thin: bool,
         progress: Progress | None = None,
         draft: bool = False,
         light: Illumination | None = None,
+        materials: Sequence[Material] = (),
     ) -> GBuffer:
         """Run the passes; gives the outputs, which a GPU may still be working on.
 
         Args:
-            surface: of this frame's structure.
+            drawn: of this frame's structure.
             uniforms: everything that its kernels read.
             thin: whether to draw thin parts.
             progress: told the share that is done.
             draft: leave out second looks and thin parts, which some pixels need and every picture can do without.
             light: what shadows and rays beyond the first hit need.
+            materials: of each part, where there are several.
         """
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
             shown.keep()
-        bound = self._tracer.begin(surface, uniforms, self._buffers, self.layout.tiles)
+        bound = self._tracer.begin(drawn, uniforms, self._buffers, self.layout.tiles)
+        if drawn.parts > 1:
+            bound = {**bound, MATERIALS: self._materials.holding(material_table(materials))}
         lanes = self.layout.lanes
         part = MOST_AT_ONCE if progress is None else max(1, self.layout.tiles // SLICES) * TILE * TILE
         for first in range(0, lanes, part):
@@ -153,7 +163,7 @@ class Frame:
             self._tracer.first_look(uniforms, bound, first, min(part, lanes - first))
             self.device.submit()
         if not draft:
-            self._tracer.second_look(surface, uniforms, bound)
+            self._tracer.second_look(drawn, uniforms, bound)
         if thin and not draft:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
         if self._shades:
@@ -164,7 +174,7 @@ class Frame:
             self._bounces.run(uniforms, bound, self.picture, light)
         self.device.submit()
         outputs = GBuffer(
-            self.layout, self.device, {PICTURE: self.picture} | {name: self._buffers[name] for name in FIELDS}
+            self.layout, self.device, {PICTURE: self.picture} | {name: self._buffers[name] for name in self._fields}
         )
         self._shown = weakref.ref(outputs)
         return outputs
@@ -179,15 +189,14 @@ KEPT_LANES = 1 << 23
 
 
 def frame_for(
-    surface: Surface, method: Method, lighting: Lighting, layout: Layout, device: Device, draft: bool = False
+    drawn: Drawn, method: Method, lighting: Lighting, layout: Layout, device: Device, draft: bool = False
 ) -> Frame:
     """The frame of a structure, kept from an earlier picture where there was one; its programs are being compiled."""
-    kind = bounds_kind(surface.bounds)
-    structure = Structure(surface.field.digest, method.structure(), kind, lighting, layout, id(device))
+    structure = Structure(drawn.shape.digest, method.structure(), lighting, layout, id(device))
     with _frames_lock:
         frame = _frames.get(structure)
         if frame is None:
-            frame = Frame(surface, method, lighting, layout, device, draft)
+            frame = Frame(drawn, method, lighting, layout, device, draft)
             _frames[structure] = frame
         else:
             frame.compile(draft)

@@ -14,11 +14,11 @@ import numpy.typing as npt
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
 from zeroset.rendering.bands import Assembled
-from zeroset.rendering.buffers import NORMAL
+from zeroset.rendering.buffers import NORMAL, PART
 from zeroset.rendering.frame import GBuffer
 from zeroset.solve.status import MISS, UNRESOLVED
 
-AOVS = ("depth", "normal", "status", "steps", "t")
+AOVS = ("depth", "normal", "part", "status", "steps", "t")
 
 
 FORMATS = {
@@ -110,7 +110,8 @@ class Image:
 
         Args:
             name: ``depth`` (distance along the viewing direction, inf where nothing is hit), ``t`` (nan there),
-                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved) or ``steps``.
+                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved), ``steps`` or
+                ``part`` (which of several surfaces, isovalues or parts of a solid; 0 where there is one alone).
         """
         if name not in AOVS:
             raise ZerosetError(
@@ -121,6 +122,8 @@ class Image:
         if name in ("t", "depth"):
             missing = np.float32(np.nan if name == "t" else np.inf)
             return np.where(self._outputs.rows("status") == MISS, missing, self._outputs.rows("t"))
+        if name == "part" and not self._outputs.has(PART):
+            return np.zeros(self.size[::-1], np.uint32)
         return self._outputs.rows(name)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:

@@ -1,6 +1,6 @@
 """Scene files: a whole picture as TOML, read with errors that name the line, and written back the same.
 
-Every key is optional but ``formula``:
+Every key is optional but ``formula``, in whose place there may be surfaces and solids (``file_shapes``):
 
     formula = "x^4 - a*x^2 + y^4 - 5y^2 + z^4 - 5z^2 + 11.8"
     name = "tangle"
@@ -9,6 +9,8 @@ Every key is optional but ``formula``:
     shadows = true
     environment = "sky"                             # or "room", or a picture's file name
     params = {a = 5.0}
+    isovalues = [0.0, 2.0]                          # instead of f = 0
+    colors = [[0.9, 0.3, 0.1], [0.1, 0.3, 0.8]]
     camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
     material = {front = [0.9, 0.5, 0.1], shininess = 40}
     [[lights]]
@@ -21,19 +23,19 @@ import dataclasses
 import os
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
-from zeroset.scene.bounds import Ball, Bounds, parse_bounds
 from zeroset.scene.camera import Camera
 from zeroset.scene.environment import Environment, as_environment
+from zeroset.scene.file_shapes import TOP, read_shapes, shapes_data
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
-from zeroset.scene.scene import MOST_LIGHTS, Scene, as_scene
-from zeroset.scene.surface import Surface, surface
+from zeroset.scene.scene import MOST_LIGHTS, Scene, Shown, as_scene
 
-KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights", "shadows", "environment")
+KEYS = (*TOP, "background", "camera", "material", "lights", "shadows", "environment")
 LARGEST = 4_000_000
 """Bytes of a scene file."""
 
@@ -93,11 +95,27 @@ class _Reader:
     def __init__(self, text: str, path: str | os.PathLike[str]) -> None:
         self._text = text
         self._path = path
+        self._from = 0
 
     def _line(self, key: str) -> int | None:
         """The first line that mentions a key; TOML's reader does not tell where values stood."""
         pattern = re.compile(rf"(^|[\s{{,\[.]){re.escape(key)}\s*[=\]]")
-        return next((i for i, line in enumerate(self._text.splitlines(), 1) if pattern.search(line)), None)
+        lines = [i for i, line in enumerate(self._text.splitlines(), 1) if pattern.search(line)]
+        return next((i for i in lines if i >= self._from), lines[0] if lines else None)
+
+    @contextmanager
+    def inside(self, what: str, index: int) -> Iterator[None]:
+        """Lines are looked for in one of several tables."""
+        heads = [i for i, line in enumerate(self._text.splitlines(), 1) if line.strip() == f"[[{what}]]"]
+        self._from = heads[index] if index < len(heads) else 0
+        try:
+            yield
+        finally:
+            self._from = 0
+
+    def placing(self, key: str) -> _placing:
+        """Errors inside get the line of a key."""
+        return _placing(self, key)
 
     def fail(self, message: str, key: str, hints: tuple[str, ...] = ()) -> SceneFileError:
         return SceneFileError(message, path=self._path, line=self._line(key), hints=hints)
@@ -112,16 +130,10 @@ class _Reader:
 
     def scene(self, data: dict[str, Any]) -> Scene:
         self.known(data, KEYS, "a scene")
-        if not isinstance(data.get("formula"), str):
-            raise self.fail("a scene needs a formula as text", "formula", ('formula = "x^2 + y^2 + z^2 = 1"',))
         lights = data.get("lights")
         if lights is not None and not isinstance(lights, list):
             raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
-        params = self._table(data, "params")
-        with _placing(self, "formula"):
-            shape = surface(data["formula"], params, name=str(data.get("name", "")))
-        with _placing(self, "bounds"):
-            shape = dataclasses.replace(shape, bounds=parse_bounds(data.get("bounds")))
+        shape = read_shapes(self, data)
         camera = None if "camera" not in data else self.build(Camera, data["camera"], "camera")
         material = self.build(Material, data.get("material", {}), "material")
         around = data.get("environment")
@@ -141,7 +153,8 @@ class _Reader:
                 around,
             )
 
-    def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    def table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+        """A table in a table; an empty one where there is none."""
         value = data.get(key, {})
         if not isinstance(value, Mapping):
             raise self.fail(f"{key} must be a table of names and values", key)
@@ -184,19 +197,15 @@ class _placing:  # noqa: N801 - reads as a statement
             raise self._reader.fail(str(error), self._key) from None
 
 
-def dumps(scene: Scene | Surface) -> str:
+def dumps(scene: Shown) -> str:
     """The text of a scene file; ``loads`` gives the same scene back."""
     import tomli_w
 
     scene = as_scene(scene)
     shape = scene.surface
-    data: dict[str, Any] = {"formula": shape.formula}
-    if shape.name:
-        data["name"] = shape.name
-    if shape.bounds is not None:
-        data["bounds"] = _bounds_data(shape.bounds)
+    data: dict[str, Any] = shapes_data(shape)
+    params, tables = data.pop("params", None), data.pop("surfaces", None)
     data["background"] = [float(v) for v in scene.background]
-    params: dict[str, Any] = dict(shape.params) | {k: [float(v) for v in a] for k, a in shape.arrays.items()}
     if params:
         data["params"] = params
     camera = scene.camera or shape.camera
@@ -209,16 +218,13 @@ def dumps(scene: Scene | Surface) -> str:
         around = scene.environment
         data["environment"] = around.source if around.strength == 1.0 else dataclasses.asdict(around)
     data["lights"] = [{k: v for k, v in dataclasses.asdict(light).items() if v is not None} for light in scene.lights]
+    if tables:
+        # After all plain values, since tables end the top of a file.
+        data["surfaces"] = tables
     return tomli_w.dumps(data)
 
 
-def _bounds_data(bounds: Bounds) -> Any:
-    if isinstance(bounds, Ball):
-        return bounds.radius if not any(bounds.center) else dataclasses.asdict(bounds)
-    return dataclasses.asdict(bounds)
-
-
-def save(scene: Scene | Surface, path: str | os.PathLike[str]) -> Path:
+def save(scene: Shown, path: str | os.PathLike[str]) -> Path:
     """Write a scene file, whole or not at all; gives its path.
 
     Raises:

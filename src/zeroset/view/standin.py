@@ -23,7 +23,7 @@ Structure = tuple[str, str, str, int, str]
 
 def structure(shot: Shot) -> Structure:
     """What the kernels of a picture depend on."""
-    surface = shot.scene.surface
+    surface = shot.scene.plain("the window")
     lights = len(shot.scene.lights)
     return surface.field.digest, shot.method.structure(), bounds_kind(surface.bounds), lights, shot.device
 

@@ -112,7 +112,7 @@ class State:
 
 def opened(scene: Scene, text: str, method: Method, device: str, tolerance: float | None) -> State:
     """The state that a window opens with."""
-    surface = scene.surface
+    surface = scene.plain("the window")
     refit = surface.bounds is None
     surface = surface.with_bounds(surface.fitted)
     camera = scene.camera or surface.camera or fit_camera(surface.fitted)
