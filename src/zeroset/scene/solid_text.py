@@ -41,8 +41,9 @@ def parse_solid(text: str, named: Mapping[str, Surface | Solid]) -> Surface | So
     if len(text) > LONGEST:
         raise ParameterError(f"the solid's text is longer than {LONGEST} characters")
     try:
-        tree = ast.parse(text.strip(), mode="eval").body
-        return _read(tree, text, named)
+        return _read(ast.parse(text.strip(), mode="eval").body, text, named)
+    except ParameterError:
+        raise
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ParameterError(f"this is no solid: {text!r}", hint=SHAPE) from None
 
