@@ -46,7 +46,10 @@ def _named(name: str, values: dict[str, Any]) -> Scene | None:
     from zeroset.errors import UnknownSurfaceError
     from zeroset.expr import VARIABLES
     from zeroset.shelf import gallery
+    from zeroset.surfaces import solids
 
+    if name in solids():
+        return Scene(gallery.solids[name])
     try:
         return Scene(gallery[name])
     except UnknownSurfaceError:

@@ -88,11 +88,10 @@ def as_drawn(thing: Drawable | Drawn) -> Drawn:
     bounded: list[tuple[str, Surface | Solid]] = []
     part = 0
     for i, each in enumerate(things):
-        # A name in a formula cannot begin with a digit.
-        prefix = f"{i}." if len(things) > 1 else ""
+        prefix = f"s{i}_" if len(things) > 1 else ""
         leaves: dict[Surface, Leaf] = {}
         for k, surface in enumerate(each.surfaces):
-            name = f"{prefix}{k}:" if isinstance(each, Solid) else prefix
+            name = f"{prefix}k{k}_" if isinstance(each, Solid) else prefix
             leaves[surface] = Leaf(surface.field, name, part, len(surface.isovalues))
             surfaces.append((name, surface))
             part += leaves[surface].parts
