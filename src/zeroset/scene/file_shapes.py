@@ -28,9 +28,10 @@ from typing import Any, Protocol
 from zeroset.errors import SceneFileError
 from zeroset.scene.bounds import Ball, Bounds, parse_bounds
 from zeroset.scene.light import Material
+from zeroset.scene.scene import Scene
 from zeroset.scene.several import Drawable, Several, as_drawable
 from zeroset.scene.solid import Solid
-from zeroset.scene.solid_text import parse_solid, solid_text
+from zeroset.scene.solid_text import names_in, parse_solid, solid_text
 from zeroset.scene.surface import Surface, surface
 
 KEYS = ("formula", "name", "bounds", "params", "isovalues", "colors")
@@ -75,7 +76,7 @@ def read_shapes(reader: Reader, data: Mapping[str, Any]) -> Drawable:
         raise reader.fail(
             f"a scene has a formula or {both}, not both", "formula", ("put the formula into [[surfaces]]",)
         )
-    if not listed and "solid" not in data:
+    if "surfaces" not in data and "solid" not in data:
         return _surface(reader, data)
     for key in (*OWN, "name", "bounds") if "solid" not in data else ():
         if key in data:
@@ -87,10 +88,13 @@ def read_shapes(reader: Reader, data: Mapping[str, Any]) -> Drawable:
     if "solid" in data:
         whole = shapes.solid(data)
         for name in shapes.alone:
-            raise reader.fail(f"the surface {name!r} is no part of the solid", "solid", ("leave it out, or join it",))
+            hints = ("leave it out, or join it",)
+            raise reader.fail(f"the surface {name.strip()!r} is no part of the solid", "solid", hints)
         return whole
     with reader.placing("surfaces"):
-        return as_drawable([*shapes.alone.values()])
+        made = as_drawable([*shapes.alone.values()])
+        # A scene knows how much it can show.
+        return Scene(made).surface
 
 
 def _surface(reader: Reader, data: Mapping[str, Any]) -> Surface:
@@ -116,6 +120,7 @@ class _Shapes:
     def __init__(self, reader: Reader) -> None:
         self._reader = reader
         self._named: dict[str, Surface | Solid] = {}
+        self._count = 0
         self.alone: dict[str, Surface | Solid] = {}
         """What is drawn by itself."""
 
@@ -130,10 +135,11 @@ class _Shapes:
                 "a surface has a formula or a solid, and not both", "name", ('formula = "x^2 + y^2 = 1"',)
             )
         made = self.solid(table) if "solid" in table else self._surface(table)
-        key = name or f"number {len(self.alone) + len(self._named) + 1}"
         if name:
             self._named[name] = made
-        self.alone[key] = made
+        self._count += 1
+        # No name has a line break in it, so these are no names.
+        self.alone[name or f"\n{self._count}"] = made
 
     def _surface(self, table: Mapping[str, Any]) -> Surface:
         made = _surface(self._reader, table)
@@ -154,8 +160,8 @@ class _Shapes:
             made = parse_solid(table["solid"], self._named)
         with reader.placing("bounds"):
             limits = parse_bounds(table.get("bounds"))
-        used = set(made.surfaces)
-        self.alone = {k: v for k, v in self.alone.items() if not used.issuperset(v.surfaces)}
+        used = names_in(table["solid"])
+        self.alone = {key: thing for key, thing in self.alone.items() if key not in used}
         if isinstance(made, Surface):
             return dataclasses.replace(made, bounds=limits or made.bounds)
         return dataclasses.replace(made, bounds=limits, name=_without_number(str(table.get("name", ""))))

@@ -48,6 +48,13 @@ def parse_solid(text: str, named: Mapping[str, Surface | Solid]) -> Surface | So
         raise ParameterError(f"this is no solid: {text!r}", hint=SHAPE) from None
 
 
+def names_in(text: str) -> frozenset[str]:
+    """The names in the text of a solid."""
+    nodes = list(ast.walk(ast.parse(text.strip(), mode="eval")))
+    names = (node.id for node in nodes if isinstance(node, ast.Name))
+    return frozenset((*names, *(str(node.value) for node in nodes if isinstance(node, ast.Constant))))
+
+
 def _read(node: ast.expr, text: str, named: Mapping[str, Surface | Solid]) -> Surface | Solid:
     match node:
         case ast.Name(id=str(name)) | ast.Constant(value=str(name)):
