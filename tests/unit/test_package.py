@@ -33,7 +33,7 @@ def test_all_is_complete_and_sorted() -> None:
     promised = {
         *("surface", "Surface", "Ball", "Box", "gallery", "load", "save", "cast", "Hits", "render", "Image", "Scene"),
         *("Camera", "Light", "Material", "methods", "errors", "ZerosetError", "MISS", "HIT", "UNRESOLVED", "show"),
-        *("Mesh", "mesh", "animate"),
+        *("Mesh", "mesh", "animate", "Solid"),
     }
     assert promised | {"__version__"} == set(zs.__all__)
     assert dir(zs) == sorted(zs.__all__)
