@@ -10,6 +10,7 @@ import click
 
 if TYPE_CHECKING:
     from zeroset.scene.scene import Scene
+    from zeroset.scene.surface import Surface
 
 F = TypeVar("F", bound=Callable[..., Any])
 MATERIAL = ("opacity", "reflectance", "ior")
@@ -33,5 +34,12 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
     """The scene with what the options say; what they leave out stays as it is."""
     changes = {name: look[name] for name in MATERIAL if look[name] is not None}
     material = dataclasses.replace(scene.material, **changes)
+
+    def changed(surface: Surface) -> Surface:
+        own = surface.material
+        return surface if own is None else surface.with_material(dataclasses.replace(own, **changes))
+
+    shown = scene.surface.mapped(changed)
     around = look["environment"] or scene.environment
-    return dataclasses.replace(scene, material=material, environment=around, shadows=look["shadows"] or scene.shadows)
+    shadows = look["shadows"] or scene.shadows
+    return dataclasses.replace(scene, surface=shown, material=material, environment=around, shadows=shadows)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -81,14 +81,11 @@ class Several:
     def with_params(self, **values: Any) -> Several:
         """The same with other parameter values, in every surface that has a parameter of that name."""
         changed = iter(spread_params(self.surfaces, values))
-        return Several(tuple(_rebuilt(thing, changed) for thing in self.things))
+        return self.mapped(lambda _: next(changed))
 
-
-def _rebuilt(thing: Surface | Solid, changed: Iterator[Surface]) -> Surface | Solid:
-    """A thing made of changed surfaces, as many as it has."""
-    if isinstance(thing, Surface):
-        return next(changed)
-    return thing.replaced({surface: next(changed) for surface in thing.surfaces})
+    def mapped(self, change: Callable[[Surface], Surface]) -> Several:
+        """The same made of its surfaces, changed one after the other."""
+        return Several(tuple(thing.mapped(change) for thing in self.things))
 
 
 Drawable = Surface | Solid | Several

@@ -7,7 +7,7 @@ and one that occurs twice is there once. Its bounds are its own: those of its su
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -95,6 +95,10 @@ class Solid:
         """The same solid with other parameter values, in every surface that has a parameter of that name."""
         changed = spread_params(self.surfaces, values)
         return self.replaced(dict(zip(self.surfaces, changed, strict=True)))
+
+    def mapped(self, change: Callable[[Surface], Surface]) -> Solid:
+        """The same solid made of its surfaces, changed."""
+        return self.replaced({surface: change(surface) for surface in self.surfaces})
 
     def replaced(self, to: Mapping[Surface, Surface]) -> Solid:
         """The same solid made of other surfaces."""

@@ -175,6 +175,10 @@ class Surface:
         chosen, order = isovalues_of(values)
         return dataclasses.replace(self, isovalues=chosen, colors=colors_of(colors, order))
 
+    def mapped(self, change: Callable[[Surface], Surface]) -> Surface:
+        """Itself, changed: what solids and scenes do to each of their surfaces."""
+        return change(self)
+
     def materials(self, usual: Material) -> tuple[Material, ...]:
         """The material of each part: of the surface, or of each isovalue; ``usual`` where it has none of its own."""
         own = self.material or usual

@@ -90,7 +90,14 @@ def test_gallery_solids_are_drawn_by_name(zeroset: Run) -> None:
     assert "sesc-csg" in ran.err
 
 
+def test_how_it_looks_goes_for_every_surface(zeroset: Run, tmp_path: Path) -> None:
+    ran = zeroset("render", "sesc-csg", "-o", "a.png", "-s", "16", "--opacity", "0.5", "--save-scene", "a.toml")
+    assert ran.status == 0
+    assert [material.opacity for material in zs.load(tmp_path / "a.toml").materials] == [0.5, 0.5]
+
+
 def test_an_animation_of_a_solid(zeroset: Run, files: Path) -> None:
+    (files / "frames").mkdir()
     ran = zeroset(
         "animate", "solid.toml", "--vary", "r=0.6:1", "--frames", "2", "--size", "24", "-o", "frames/f-##.png"
     )
