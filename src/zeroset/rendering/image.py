@@ -14,8 +14,10 @@ import numpy.typing as npt
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
 from zeroset.rendering.bands import Assembled
-from zeroset.rendering.buffers import NORMAL
+from zeroset.rendering.buffers import NORMAL, VALUE
 from zeroset.rendering.frame import GBuffer
+from zeroset.scene.coloring import Coloring
+from zeroset.shade.colormap import LARGEST
 from zeroset.solve.status import MISS, UNRESOLVED
 
 AOVS = ("depth", "normal", "status", "steps", "t")
@@ -75,6 +77,7 @@ class Image:
         size: width and height in pixels.
         pixels: (height, width, 3) uint8, sRGB.
         certified: whether the method proves its answers.
+        coloring: what the surface is coloured by; None for nothing.
 
     Example:
         >>> import zeroset as zs
@@ -85,9 +88,16 @@ class Image:
         np.uint32(1)
     """
 
-    def __init__(self, size: tuple[int, int], outputs: GBuffer | Assembled, certified: bool) -> None:
+    def __init__(
+        self,
+        size: tuple[int, int],
+        outputs: GBuffer | Assembled,
+        certified: bool,
+        coloring: Coloring | None = None,
+    ) -> None:
         self.size = size
         self.certified = certified
+        self.coloring = coloring
         self._outputs = outputs
 
     @cached_property
@@ -105,17 +115,34 @@ class Image:
         """How many pixels could be neither proven nor excluded; they are drawn as hits."""
         return int(np.count_nonzero(self.aov("status") == UNRESOLVED))
 
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """Values of the first and the last colour; None where the surface is not coloured by anything."""
+        return self._outputs.range
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """What ``aov`` can give."""
+        return AOVS if self.coloring is None else (*AOVS, VALUE)
+
     def aov(self, name: str) -> npt.NDArray[Any]:
         """One output of the G-buffer, in rows.
 
         Args:
             name: ``depth`` (distance along the viewing direction, inf where nothing is hit), ``t`` (nan there),
-                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved) or ``steps``.
+                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved), ``steps``, or ``value``, the
+                quantity that the surface is coloured by (nan where there is none).
         """
-        if name not in AOVS:
+        if name == VALUE and self.coloring is None:
+            raise ZerosetError("there is no value: the surface is not coloured by any", hint="give render a color_by")
+        if name not in self.outputs:
+            known = self.outputs
             raise ZerosetError(
-                f"there is no output {name!r}", hints=(*did_you_mean(name, AOVS), f"there are {', '.join(AOVS)}")
+                f"there is no output {name!r}", hints=(*did_you_mean(name, known), f"there are {', '.join(known)}")
             )
+        if name == VALUE:
+            values = self._outputs.rows(VALUE)
+            return np.where(np.abs(values) <= LARGEST, values, np.float32(np.nan))
         if name == "normal":
             return np.stack([self._outputs.rows(axis) for axis in NORMAL], axis=-1)
         if name in ("t", "depth"):
