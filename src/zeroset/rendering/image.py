@@ -21,6 +21,7 @@ from zeroset.shade.colormap import LARGEST
 from zeroset.solve.status import MISS, UNRESOLVED
 
 AOVS = ("depth", "normal", "status", "steps", "t")
+_COLOR = 'say by what: render(..., color_by="gaussian-curvature")'
 
 
 FORMATS = {
@@ -134,7 +135,7 @@ class Image:
                 quantity that the surface is coloured by (nan where there is none).
         """
         if name == VALUE and self.coloring is None:
-            raise ZerosetError("there is no value: the surface is not coloured by any", hint="give render a color_by")
+            raise ZerosetError("there is no value: the surface is not coloured by any", hint=_COLOR)
         if name not in self.outputs:
             known = self.outputs
             raise ZerosetError(
@@ -159,14 +160,39 @@ class Image:
         """The picture as a PNG file's bytes."""
         return encode(self.pixels, "PNG")
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
+    def legend(self) -> npt.NDArray[np.uint8]:
+        """The picture with a colour bar, (height, width, 3): what the colours mean.
+
+        Raises:
+            ZerosetError: the surface is not coloured by anything.
+        """
+        from zeroset.rendering.legend import Key, with_legend
+
+        if self.coloring is None or self.range is None:
+            raise ZerosetError("there is no legend: the surface is not coloured by anything", hint=_COLOR)
+        values = self.aov(VALUE)[self.aov("status") != MISS]
+        known = values[~np.isnan(values)]
+        low, high = self.range
+        # What rounding puts beyond an end is no more than that; a cyclic map has no ends.
+        hair = np.inf if self.coloring.cyclic else 1e-5 * (high - low)
+        below, above = bool(np.any(known < low - hair)), bool(np.any(known > high + hair))
+        missing = len(known) < len(values)
+        key = Key(self.coloring.quantity.title, self.coloring.chosen_map, (low, high), below, above, missing)
+        return with_legend(self.pixels, key)
+
+    def save(self, path: str | os.PathLike[str], legend: bool = False) -> Path:
         """Write the picture, in the format of the suffix (.png, .jpg, .webp, .tif, .bmp), whole or not at all.
+
+        Args:
+            path: where.
+            legend: whether to draw a colour bar onto it.
 
         Raises:
             OutputError: the suffix names no picture format, or the file cannot be written.
+            ZerosetError: there is to be a legend, but the surface is not coloured by anything.
         """
         target = Path(path)
-        data = encode(self.pixels, picture_format(target))
+        data = encode(self.legend() if legend else self.pixels, picture_format(target))
         with replacing(target) as file:
             file.write(data)
         return target

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, UnknownNameError, did_you_mean
+from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, UnknownNameError, ZerosetError, did_you_mean
 from zeroset.expr import parse
 from zeroset.scene.bounds import number
 from zeroset.scene.colormap import find_map
@@ -18,8 +18,6 @@ from zeroset.scene.parameters import TIME
 from zeroset.scene.surface import MOST_WORK, ExprField, Surface
 
 Range = tuple[float, float]
-MOST_SECOND_WORK = 1000
-"""Operations of f up to which its second derivatives are compiled: each becomes ten and more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +38,7 @@ class Quantity:
 QUANTITIES = {
     "gaussian-curvature": Quantity("Gaussian curvature", True, 2),
     "mean-curvature": Quantity("mean curvature", True, 2),
-    "gradient": Quantity("gradient of f", False, 1),
+    "gradient": Quantity("|grad f|", False, 1),
     "steps": Quantity("evaluations"),
     "depth": Quantity("depth"),
 }
@@ -59,17 +57,19 @@ class Coloring:
         map: a colour map: ``lagoon``, ``ember``, ``gray``, ``coolwarm``, ``earth`` or ``wheel``; None takes
             ``coolwarm`` for curvatures and ``lagoon`` for all else.
         range: values of the first and the last colour; None finds them from the picture: the 2nd and the 98th
-            percentile of what is seen, for curvatures and diverging maps with 0 in the middle.
+            percentile of what is seen; for curvatures and diverging maps 0 is in the middle, and the 95th percentile
+            of the sizes at the ends.
 
     Example:
         >>> import zeroset as zs
+        >>> import numpy as np
         >>> by = zs.Coloring("gaussian-curvature", range=(-2, 2))
         >>> image = zs.render("x^2 + y^2 + z^2 = 1", size=32, color_by=by)
         >>> float(np.nanmax(abs(image.aov("value") - 1))) < 1e-4
         True
     """
 
-    by: str
+    by: str = "gaussian-curvature"
     map: str | None = None
     range: Range | None = None
 
@@ -117,29 +117,31 @@ def formula_of(coloring: Coloring, surface: Surface) -> ExprField | None:
     Raises:
         ParameterError: it is neither a quantity's name nor a formula.
         FormulaError: it is a formula with a mistake; the message shows where.
-        FormulaLimitError: it, or what it takes of f's derivatives, is too long to be compiled.
+        FormulaLimitError: it is too long to be compiled.
     """
     if coloring.by in QUANTITIES:
-        if coloring.quantity.order == 2 and surface.field.work > MOST_SECOND_WORK:
-            raise FormulaLimitError(
-                f"the formula has too many operations for second derivatives: {surface.field.work:,} of at most "
-                f"{MOST_SECOND_WORK:,}",
-                hint="colour by the gradient, or by a formula",
-            )
         return None
     try:
         made = ExprField(parse(coloring.by, params=set(surface.params) - {TIME}, arrays=set(surface.arrays)))
     except FormulaError as error:
-        name = isinstance(error, UnknownNameError) or re.fullmatch(r"[a-z]+([-_ ][a-z]+)*", coloring.by.strip().lower())
-        near = did_you_mean(re.sub(r"[_ ]+", "-", coloring.by.strip().lower()), QUANTITIES)
-        if not (name and near):
-            raise
-        raise ParameterError(
-            f"there is nothing to colour by that is called {coloring.by!r}", hints=(*near, _known())
-        ) from None
+        raise _mistaken(error, coloring.by, surface) from None
     if made.work > MOST_WORK:
         raise FormulaLimitError(f"the formula to colour by has more than {MOST_WORK:,} operations")
     return made
+
+
+def _mistaken(error: FormulaError, by: str, surface: Surface) -> ZerosetError:
+    """What to say of a text that is no formula: perhaps it was meant as a quantity's name."""
+    name = by.strip().lower()
+    near = did_you_mean(re.sub(r"[_ ]+", "-", name), QUANTITIES)
+    if near and (isinstance(error, UnknownNameError) or re.fullmatch(r"[a-z]+([-_ ][a-z]+)*", name)):
+        return ParameterError(f"there is nothing to colour by that is called {by!r}", hints=(*near, _known()))
+    if isinstance(error, UnknownNameError):
+        # It is the surface that has parameters; a formula to colour by brings none of its own.
+        known = ", ".join(sorted({*surface.params, *surface.arrays} - {TIME})) or "none"
+        hints = (*did_you_mean(error.name, {*surface.params, *surface.arrays}), f"the surface's parameters: {known}")
+        return UnknownNameError(error.message, name=error.name, text=by, position=error.position, hints=hints)
+    return error
 
 
 def _known() -> str:
