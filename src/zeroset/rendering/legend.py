@@ -18,6 +18,7 @@ from zeroset.scene.colormap import NEUTRAL, table
 Pixels = npt.NDArray[np.uint8]
 SMALLEST, LARGEST = 9, 48
 """Height of letters in pixels."""
+NONE = "no value"
 LIGHT, DARK = (255, 255, 255, 208), (18, 20, 24, 200)
 """Plates, with their opacity."""
 
@@ -79,13 +80,13 @@ def _bytes(linear: npt.NDArray[np.float64]) -> Pixels:
     return (np.clip(curve, 0, 1) * 255 + 0.5).astype(np.uint8)
 
 
-def _halved(text: str) -> str:
+def _halved(text: str) -> list[str]:
     """A name on two lines, where it has a space between words."""
     words = text.split(" ")
     if len(words) == 1 or any(not word.isalpha() for word in words):
-        return text
+        return [text]
     cut = min(range(1, len(words)), key=lambda i: max(len(" ".join(words[:i])), len(" ".join(words[i:]))))
-    return " ".join(words[:cut]) + "\n" + " ".join(words[cut:])
+    return [" ".join(words[:cut]), " ".join(words[cut:])]
 
 
 class _Plan:
@@ -110,31 +111,38 @@ class _Plan:
             self.labels = [f"{v:.3g}" for v in self.ticks]
         numbers = max(map(self.wide, self.labels), default=0)
         beside = self.bar[0] + round(size * 0.7) + numbers
-        # What does not fit is left out: first the name, then the numbers.
-        most_wide = max(round(width * 0.4), beside)
-        lines = key.title if self.wide(key.title) <= beside * 1.2 else _halved(key.title)
-        self.title = "\n".join(self._short(line, most_wide) for line in lines.split("\n"))
-        count = len(self.title.split("\n"))
-        room = height - 2 * margin - 2 * pad - self.bar[1] - size
-        if room < size * (0.6 + 1.25 * count) or width < 90:
-            self.title = ""
+        # What does not fit is left out: first the patch for what has no value, then the name, then the numbers.
         if beside > width * 0.45 or height < 60:
             self.ticks, self.labels, beside = [], [], self.bar[0]
-        self.missing = key.missing and bool(self.labels) and room > size * 4
-        inside = max(
-            beside,
-            *map(self.wide, self.title.split("\n")),
-            self.wide("no value") + round(size * 1.5) if self.missing else 0,
-        )
-        above = round(size * (0.6 + 1.25 * count)) if self.title else 0
-        # Numbers and arrows stick out of the bar's ends.
-        ends = round(size * 0.8)
-        below = round(size * 1.9) if self.missing else 0
-        w, h = inside + 2 * pad, self.bar[1] + above + below + 2 * ends + 2 * pad - (size if not self.labels else 0)
+        self.missing = key.missing and bool(self.labels)
+        self.title = self._lines(key.title, beside, max(round(width * 0.4), beside)) if width >= 90 else []
+        room = height - 2 * margin
+        if self.missing and self._tall() > room:
+            self.missing = False
+        if self.title and self._tall() > room:
+            self.title = []
+        w = 2 * pad + max(beside, *map(self.wide, self.title), self.wide(NONE) + self.size * 2 if self.missing else 0)
+        h = self._tall()
         # Surfaces are round, and leave corners free.
         x0, y0 = width - margin - w, max(height - margin - h, 0)
         self.plate = (x0, y0, x0 + w, y0 + h)
-        self.corner = (x0 + pad, y0 + pad + above + (ends if self.labels else ends - size // 2))
+        self.corner = (x0 + pad, y0 + pad + self._above() + self._ends())
+
+    def _ends(self) -> int:
+        """Room beyond the bar's ends, into which numbers and arrows stick out."""
+        return round(self.size * (0.8 if self.labels else 0.4))
+
+    def _above(self) -> int:
+        return round(self.size * (0.6 + 1.25 * len(self.title))) if self.title else 0
+
+    def _tall(self) -> int:
+        below = round(self.size * 1.9) if self.missing else 0
+        return self.bar[1] + self._above() + below + 2 * (self._ends() + self.pad)
+
+    def _lines(self, title: str, narrow: int, wide: int) -> list[str]:
+        """The name on one line or two, cut where it is too long."""
+        lines = [title] if self.wide(title) <= narrow * 1.2 else _halved(title)
+        return [self._short(line, wide) for line in lines]
 
     def wide(self, text: str) -> int:
         """Width of a text in pixels."""
@@ -167,16 +175,15 @@ class _Plan:
             level = y + (h - 1) * (1 - (value - low) / (high - low))
             pen.line((x + w, level, x + w + round(self.size * 0.3), level), fill=faint, width=max(self.size // 14, 1))
             pen.text((x + w + round(self.size * 0.6), level), label, font=self.font, fill=ink, anchor="lm")
-        if self.title:
-            for i, line in enumerate(self.title.split("\n")):
-                level = self.plate[1] + self.pad + round(self.size * (0.5 + 1.25 * i))
-                pen.text((x, level), line, font=self.font, fill=ink, anchor="lm")
+        for i, line in enumerate(self.title):
+            level = self.plate[1] + self.pad + round(self.size * (0.5 + 1.25 * i))
+            pen.text((x, level), line, font=self.font, fill=ink, anchor="lm")
         if self.missing:
             level = y + h + round(self.size * 1.2)
             grey = tuple(int(v) for v in _bytes(np.full(3, NEUTRAL)))
             pen.rectangle((x, level, x + self.size, level + self.size), fill=grey)
             middle = level + self.size / 2
-            pen.text((x + round(self.size * 1.5), middle), "no value", font=self.font, fill=ink, anchor="lm")
+            pen.text((x + round(self.size * 1.5), middle), NONE, font=self.font, fill=ink, anchor="lm")
 
     def _arrows(self, pen: Any, colors: Pixels) -> None:
         """Points at the ends beyond which there is more."""

@@ -14,7 +14,7 @@ from zeroset.rendering.bounce import MOST_DEEP
 from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import Illumination, Lighting, Smooth, shading_uniforms
+from zeroset.rendering.shading import Illumination, Lighting, Optics, Smooth, shading_uniforms
 from zeroset.rendering.tint import Palette, Tint
 from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
@@ -141,7 +141,7 @@ def render(
     else:
         if palette is not None and palette.range is None:
             # All bands have one range: that of the whole picture, drawn smaller.
-            small = _layout(_smaller(layout))
+            small = _smaller(layout, target, lighting.optics)
             seen = render(scene, (small.width, small.height), camera, method, target, tolerance, thin=thin)
             palette = replace(palette, range=seen.range)
         outputs = Assembled(layout, palette)
@@ -159,10 +159,15 @@ def _share(progress: Progress | None, part: int, parts: int) -> Progress | None:
     return None if progress is None else lambda done: progress((part + done) / parts)
 
 
-def _smaller(layout: Layout) -> tuple[int, int]:
-    """A picture's size with its longer side cut down to ``PREVIEW``."""
-    scale = min(PREVIEW / max(layout.width, layout.height), 1.0)
-    return max(round(layout.width * scale), 1), max(round(layout.height * scale), 1)
+def _smaller(layout: Layout, device: Device, optics: Optics | None) -> Layout:
+    """A picture's size with its longer side cut down to ``PREVIEW``, and further until it fits."""
+    side = min(PREVIEW, max(layout.width, layout.height))
+    while True:
+        scale = side / max(layout.width, layout.height)
+        small = Layout(max(round(layout.width * scale), 1), max(round(layout.height * scale), 1))
+        if side <= TILE or fits(small, device, optics):
+            return small
+        side //= 2
 
 
 def _layout(size: tuple[int, int] | int) -> Layout:
