@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, UnknownNameError, ZerosetError, did_you_mean
@@ -122,12 +123,28 @@ def formula_of(coloring: Coloring, surface: Surface) -> ExprField | None:
     if coloring.by in QUANTITIES:
         return None
     try:
-        made = ExprField(parse(coloring.by, params=set(surface.params) - {TIME}, arrays=set(surface.arrays)))
+        made = _read(coloring.by, frozenset(surface.params) - {TIME}, frozenset(surface.arrays))
     except FormulaError as error:
         raise _mistaken(error, coloring.by, surface) from None
     if made.work > MOST_WORK:
         raise FormulaLimitError(f"the formula to colour by has more than {MOST_WORK:,} operations")
     return made
+
+
+@lru_cache(maxsize=32)
+def _read(by: str, params: frozenset[str], arrays: frozenset[str]) -> ExprField:
+    """A formula; kept, since every picture of a window asks for it."""
+    return ExprField(parse(by, params=params, arrays=arrays))
+
+
+def suited(coloring: Coloring | None, surface: Surface) -> Coloring | None:
+    """The coloring, if a surface can be coloured so; None for a formula with parameters that it has not."""
+    if coloring is not None:
+        try:
+            formula_of(coloring, surface)
+        except ZerosetError:
+            return None
+    return coloring
 
 
 def _mistaken(error: FormulaError, by: str, surface: Surface) -> ZerosetError:
