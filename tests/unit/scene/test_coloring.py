@@ -7,7 +7,7 @@ import pytest
 
 import zeroset as zs
 from zeroset.errors import FormulaError, ParameterError, SceneFileError
-from zeroset.scene.coloring import QUANTITIES, as_coloring
+from zeroset.scene.coloring import QUANTITIES, as_coloring, suited
 from zeroset.scene.file import dumps, loads
 
 BALL = zs.surface("x^2 + y^2 + z^2 = r^2", {"r": 1.0})
@@ -50,6 +50,14 @@ def test_a_scene_looks_at_the_formula() -> None:
         assert zs.Scene(BALL, material=zs.Material(coloring=zs.Coloring(by))).material.coloring is not None
     with pytest.raises(FormulaError, match="value is missing"):
         zs.Scene(BALL, material=zs.Material(coloring=zs.Coloring("x +")))
+
+
+def test_what_suits_a_surface() -> None:
+    other = zs.surface("x + y + z")
+    for coloring in (None, zs.Coloring("steps"), zs.Coloring("w*x")):
+        assert suited(coloring, other) is coloring
+    assert suited(zs.Coloring("r*x"), BALL) == zs.Coloring("r*x")
+    assert suited(zs.Coloring("r*x"), other) is None
 
 
 @pytest.mark.parametrize(
