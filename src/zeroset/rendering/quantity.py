@@ -143,7 +143,7 @@ class Measure:
         f, g, defined = self._first(point)
         scale = _scale(g)
         a = [x / scale for x in g]
-        step = f / (scale * dot(a, a))
+        step = f / (scale * dot(a, a).maximum(1e-30))
         near = NEAR * self._builder.uniform("tolerance", F32).convert(self._type)
         short = defined & (abs(step) <= near)
         return [p - short.select(step * x, 0.0) for p, x in zip(point, a, strict=True)]

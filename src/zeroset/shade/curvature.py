@@ -1,6 +1,6 @@
 """The curvatures of an implicit surface, from the first and second derivatives of f.
 
-R. Goldman, Curvature formulas for implicit curves and surfaces, Computer Aided Geometric Design 22 (2005), section 4.
+R. Goldman, Curvature formulas for implicit curves and surfaces, Computer Aided Geometric Design 22 (2005).
 The Gaussian curvature does not depend on the sign of f. The mean curvature does: here it is half the divergence of
 grad f/|grad f|, positive where the surface bends away from growing f, which is the negative of Goldman's.
 """
