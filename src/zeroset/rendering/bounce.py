@@ -24,6 +24,7 @@ from zeroset.rendering.buffers import (
 from zeroset.rendering.drawn import Drawn
 from zeroset.rendering.layout import Layout
 from zeroset.rendering.shading import Illumination, Optics
+from zeroset.rendering.tint import Tint
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Counted, Device
 from zeroset.solve.method import Method
@@ -44,10 +45,18 @@ class Bounces:
         optics: which rays there are.
         layout: of the frame.
         device: where.
+        tint: what the surface is coloured by; None for nothing.
     """
 
     def __init__(
-        self, tracer: Tracer, drawn: Drawn, method: Method, optics: Optics, layout: Layout, device: Device
+        self,
+        tracer: Tracer,
+        drawn: Drawn,
+        method: Method,
+        optics: Optics,
+        layout: Layout,
+        device: Device,
+        tint: Tint | None = None,
     ) -> None:
         shape, offset = drawn.shape, method.offset != 0.0
         several = shape.parts > 1
@@ -55,12 +64,12 @@ class Bounces:
         def first() -> Kernel:
             from zeroset.rendering.paths import first_path_kernel
 
-            return first_path_kernel(shape, offset, optics)
+            return first_path_kernel(shape, offset, optics, tint is not None)
 
         def path() -> Kernel:
             from zeroset.rendering.paths import path_kernel
 
-            return path_kernel(shape, offset, optics)
+            return path_kernel(shape, offset, optics, tint)
 
         def resolve() -> Kernel:
             from zeroset.rendering.paths import resolve_kernel
@@ -76,7 +85,8 @@ class Bounces:
         if optics.smooth:
             tracer.add(self._edges, edges)
         own = f"{shape.digest} {offset} {optics}"
-        self._names = f"path_first {own}", f"path {own}", f"resolve {optics.plain}"
+        first_own, path_own = ("", "") if tint is None else (" colored", f" {tint.digest}")
+        self._names = f"path_first {own}{first_own}", f"path {own}{path_own}", f"resolve {optics.plain}"
         self._plain = optics.plain
         for name, build in zip(self._names, (first, path, resolve), strict=True):
             if not (self._plain and build is first):

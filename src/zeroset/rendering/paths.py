@@ -27,13 +27,17 @@ from zeroset.rendering.buffers import (
     QUEUED,
     QUEUEING,
     TEXELS,
+    VALUE,
 )
 from zeroset.rendering.gbuffer import behind, meet
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
 from zeroset.rendering.materials import material_at
 from zeroset.rendering.primary import problem_on, stride
+from zeroset.rendering.quantity import Measure, Met
+from zeroset.rendering.shade import by_value
 from zeroset.rendering.shading import Optics
 from zeroset.rendering.shadow import way_is_free
+from zeroset.rendering.tint import Tint
 from zeroset.rendering.view import pixel_ray
 from zeroset.shade.environment import cube_color
 from zeroset.shade.reflectance import Face, dot, face, normalised
@@ -61,6 +65,7 @@ class Found:
         clear: nothing was met up to here.
         end: what was met is behind the ray here.
         part: which part it is, where there is more than one.
+        value: what it is coloured by; None where it is not.
     """
 
     hit: Value
@@ -69,6 +74,7 @@ class Found:
     clear: Value
     end: Value
     part: Value | None = None
+    value: Value | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +87,7 @@ class _Carried:
     weight: tuple[Value, Value, Value]
 
 
-def first_path_kernel(shape: Shape, offset: bool, optics: Optics) -> Kernel:
+def first_path_kernel(shape: Shape, offset: bool, optics: Optics, colored: bool = False) -> Kernel:
     """Shade what the camera's rays have met, and send on what comes of it."""
     with KernelBuilder("path_first") as builder:
         lane = builder.index()
@@ -89,23 +95,31 @@ def first_path_kernel(shape: Shape, offset: bool, optics: Optics) -> Kernel:
         t, clear, end = (load(builder.buffer(name, F32), lane) for name in ("t", *END))
         normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
         part = load(builder.buffer(PART, U32), lane) if shape.parts > 1 else None
-        found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end, part)
+        value = load(builder.buffer(VALUE, F32), lane) if colored else None
+        found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end, part, value)
         one = constant(1.0, F32)
         respond = _Response(Subject(shape, builder, offset=offset), optics, alone=True)
         respond.to(_Carried(lane, ray, constant(0.0, F32), (one, one, one)), found)
     return builder.kernel
 
 
-def path_kernel(shape: Shape, offset: bool, optics: Optics) -> Kernel:
+def path_kernel(shape: Shape, offset: bool, optics: Optics, tint: Tint | None = None) -> Kernel:
     """One run: the rays of a queue are traced and shaded, and what they send on goes to the next queue."""
     with KernelBuilder("path") as builder:
         place = builder.index()
         # More rays may have been counted than there was room for.
-        if_(place < builder.uniform("capacity", U32), lambda: _follow(builder, place, shape, offset, optics))
+        # Only a plain surface is coloured by a quantity.
+        field = shape.bodies[0].leaves[0][0].field
+        measure = None if tint is None else Measure(builder, field, offset, tint)
+        room = place < builder.uniform("capacity", U32)
+        if_(room, lambda: _follow(builder, place, (shape, offset), optics, measure))
     return builder.kernel
 
 
-def _follow(builder: KernelBuilder, place: Value, shape: Shape, offset: bool, optics: Optics) -> None:
+def _follow(
+    builder: KernelBuilder, place: Value, traced: tuple[Shape, bool], optics: Optics, measure: Measure | None
+) -> None:
+    shape, offset = traced
     queue = builder.buffer(QUEUED, U32)
     words = [load(queue, place * QUEUE_WORDS + i) for i in range(QUEUE_WORDS - 1)]
     numbers = [word.bitcast(F32) for word in words[1:]]
@@ -115,10 +129,15 @@ def _follow(builder: KernelBuilder, place: Value, shape: Shape, offset: bool, op
     farthest = builder.uniform("farthest", F32)
     answer = subject.nearest(lambda body: problem_on(body, ray, start, farthest, None), stride)
     hit = answer.status.ne(MISS)
-    nothing = (*[constant(0.0, F32)] * 3, *([] if shape.parts == 1 else [constant(0, U32)]))
-    met = if_(hit, lambda: meet(subject, ray, answer), lambda: nothing)
+    zero = constant(0.0, F32)
+    nothing = (zero, zero, zero, *([] if shape.parts == 1 else [constant(0, U32)]))
+    normal = if_(hit, lambda: meet(subject, ray, answer), lambda: nothing)
+    part, value = normal[3] if shape.parts > 1 else None, None
+    if measure is not None:
+        met, known = Met(ray, answer.t, answer.steps), measure
+        (value,) = if_(hit, lambda: (known.at(met),), lambda: (zero,))
     respond = _Response(subject, optics)
-    found = Found(hit, answer.t, met[:3], answer.clear, behind(answer), met[3] if shape.parts > 1 else None)
+    found = Found(hit, answer.t, normal[:3], answer.clear, behind(answer), part, value)
     respond.to(_Carried(words[0], ray, start, weight), found)
 
 
@@ -161,7 +180,8 @@ class _Response:
         point = [found.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
         toward_eye = [-d for d in normalised(ray.direction)]
         number = material_at(self.builder, found.part)
-        seen = face(number, found.normal, toward_eye)
+        albedo = None if found.value is None else by_value(self.builder, found.value)
+        seen = face(number, found.normal, toward_eye, albedo)
         color = self._lights(point, seen)
         opacity = number("opacity") if optics.through else constant(1.0, F32)
         mirror = number("reflectance") if optics.mirror else constant(0.0, F32)

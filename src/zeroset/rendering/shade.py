@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, if_, load, store
-from zeroset.rendering.buffers import LIT, PART
+from zeroset.rendering.buffers import COLORS, LIT, PART, VALUE
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
 from zeroset.rendering.materials import material_at
 from zeroset.rendering.shading import LIGHT, Lighting
 from zeroset.rendering.view import pixel_ray
+from zeroset.shade.albedo import Albedo
+from zeroset.shade.colormap import mapped
 from zeroset.shade.reflectance import blinn_phong, normalised
 from zeroset.shade.tone import encode, pack
 from zeroset.solve.field import Ray
@@ -26,7 +28,8 @@ def shade_kernel(lighting: Lighting, parts: int = 1) -> Kernel:
             toward_eye = [-d for d in normalised(ray.direction)]
             sources = _sources(builder, lighting, ray, lane)
             part = load(builder.buffer(PART, U32), lane) if parts > 1 else None
-            color = blinn_phong(material_at(builder, part), normal, toward_eye, sources)
+            albedo = by_value(builder, load(builder.buffer(VALUE, F32), lane)) if lighting.colored else None
+            color = blinn_phong(material_at(builder, part), normal, toward_eye, sources, albedo)
             return tuple(encode(c) for c in color)
 
         def behind() -> tuple[object, ...]:
@@ -40,6 +43,11 @@ def shade_kernel(lighting: Lighting, parts: int = 1) -> Kernel:
         inside = (column < width) & (row < builder.uniform("height", U32))
         if_(inside, lambda: store(rgba, row * width + column, color))
     return builder.kernel
+
+
+def by_value(builder: KernelBuilder, value: Value) -> Albedo:
+    """The albedo of a point that is coloured by a value: through the frame's colour map."""
+    return mapped(builder.buffer(COLORS, F32), lambda name: builder.uniform(name, F32), value)
 
 
 def _sources(builder: KernelBuilder, lighting: Lighting, ray: Ray, lane: Value) -> list[list[Value]]:

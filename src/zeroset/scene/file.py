@@ -13,6 +13,7 @@ Every key is optional but ``formula``, in whose place there may be surfaces and 
     colors = [[0.9, 0.3, 0.1], [0.1, 0.3, 0.8]]
     camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
     material = {front = [0.9, 0.5, 0.1], shininess = 40}
+    material.coloring = {by = "gaussian-curvature", map = "coolwarm", range = [-2, 2]}   # or the quantity alone
     [[lights]]
     direction = [-0.4, 0.7, 0.7]
 """
@@ -30,10 +31,12 @@ from typing import Any
 
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
 from zeroset.scene.camera import Camera
+from zeroset.scene.coloring import Coloring, formula_of
 from zeroset.scene.environment import Environment, as_environment
-from zeroset.scene.file_shapes import TOP, read_shapes, shapes_data
+from zeroset.scene.file_shapes import TOP, given, material_data, read_shapes, shapes_data
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
 from zeroset.scene.scene import MOST_LIGHTS, Scene, Shown, as_scene
+from zeroset.scene.several import Drawable, plain_surface
 
 KEYS = (*TOP, "background", "camera", "material", "lights", "shadows", "environment")
 LARGEST = 4_000_000
@@ -135,7 +138,7 @@ class _Reader:
             raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
         shape = read_shapes(self, data)
         camera = None if "camera" not in data else self.build(Camera, data["camera"], "camera")
-        material = self.build(Material, data.get("material", {}), "material")
+        material = self._material(data.get("material", {}), shape)
         around = data.get("environment")
         if isinstance(around, Mapping):
             around = self.build(Environment, around, "environment")
@@ -152,6 +155,19 @@ class _Reader:
                 data.get("shadows", False),
                 around,
             )
+
+    def _material(self, data: Any, shape: Drawable) -> Any:
+        material = self.material(data)
+        if material.coloring is not None:
+            with _placing(self, "by" if isinstance(data["coloring"], Mapping) else "coloring"):
+                formula_of(material.coloring, plain_surface(shape, "colouring by a quantity"))
+        return material
+
+    def material(self, data: Any) -> Any:
+        """A material from a table."""
+        if isinstance(data, Mapping) and isinstance(data.get("coloring"), Mapping):
+            data = {**data, "coloring": self.build(Coloring, data["coloring"], "coloring")}
+        return self.build(Material, data, "material")
 
     def table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
         """A table in a table; an empty one where there is none."""
@@ -210,14 +226,14 @@ def dumps(scene: Shown) -> str:
         data["params"] = params
     camera = scene.camera or shape.camera
     if camera is not None:
-        data["camera"] = {k: v for k, v in dataclasses.asdict(camera).items() if v is not None}
-    data["material"] = dataclasses.asdict(scene.material)
+        data["camera"] = given(dataclasses.asdict(camera))
+    data["material"] = material_data(scene.material)
     if scene.shadows:
         data["shadows"] = True
     if scene.environment is not None:
         around = scene.environment
         data["environment"] = around.source if around.strength == 1.0 else dataclasses.asdict(around)
-    data["lights"] = [{k: v for k, v in dataclasses.asdict(light).items() if v is not None} for light in scene.lights]
+    data["lights"] = [given(dataclasses.asdict(light)) for light in scene.lights]
     if tables:
         # After all plain values, since tables end the top of a file.
         data["surfaces"] = tables

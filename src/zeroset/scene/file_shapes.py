@@ -56,8 +56,8 @@ class Reader(Protocol):
     def table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
         """A table in a table; an empty one where there is none."""
 
-    def build(self, cls: type[Any], data: Any, where: str) -> Any:
-        """An instance of a dataclass from a table."""
+    def material(self, data: Any) -> Any:
+        """A material from a table."""
 
     def placing(self, key: str) -> AbstractContextManager[None]:
         """Errors inside get the line of a key."""
@@ -144,7 +144,7 @@ class _Shapes:
     def _surface(self, table: Mapping[str, Any]) -> Surface:
         made = _surface(self._reader, table)
         if "material" in table:
-            made = made.with_material(self._reader.build(Material, table["material"], "material"))
+            made = made.with_material(self._reader.material(table["material"]))
         return dataclasses.replace(made, name=_without_number(made.name))
 
     def solid(self, table: Mapping[str, Any]) -> Surface | Solid:
@@ -229,8 +229,21 @@ def _surface_data(shape: Surface, name: str) -> dict[str, Any]:
     if params:
         data["params"] = params
     if shape.material is not None:
-        data["material"] = dataclasses.asdict(shape.material)
+        data["material"] = material_data(shape.material)
     return data
+
+
+def material_data(material: Material) -> dict[str, Any]:
+    """A material as a scene file has it."""
+    data = given(dataclasses.asdict(material))
+    if material.coloring is not None:
+        data["coloring"] = given(dataclasses.asdict(material.coloring))
+    return data
+
+
+def given(data: dict[str, Any]) -> dict[str, Any]:
+    """What of it is not None, which TOML does not know."""
+    return {k: v for k, v in data.items() if v is not None}
 
 
 def bounds_data(bounds: Bounds) -> Any:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.scene.camera import Camera
+from zeroset.scene.coloring import formula_of
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
 from zeroset.scene.several import Drawable, Several, as_drawable, plain_surface
@@ -57,6 +58,9 @@ class Scene:
             raise ParameterError(f"a scene has at most {MOST_PARTS} surfaces and isovalues, not {len(self.materials)}")
         if not isinstance(self.shadows, bool):
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
+        for material in self.materials:
+            if material.coloring is not None:
+                formula_of(material.coloring, self.plain("colouring by a quantity"))
         object.__setattr__(self, "environment", as_environment(self.environment))
         lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
         for light in lights:

@@ -11,10 +11,11 @@ from typing import Any
 from zeroset.errors import ParameterError
 from zeroset.scene.bounds import Ball, Bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.exprfield import check_work
 from zeroset.scene.light import Material
 from zeroset.scene.parameters import spread_params
 from zeroset.scene.solid import Solid
-from zeroset.scene.surface import Surface, check_work
+from zeroset.scene.surface import Surface
 
 
 @dataclass(frozen=True)

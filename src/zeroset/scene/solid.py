@@ -15,9 +15,10 @@ from typing import Any
 from zeroset.errors import ParameterError
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.exprfield import check_work
 from zeroset.scene.light import Material
 from zeroset.scene.parameters import spread_params
-from zeroset.scene.surface import Surface, check_work
+from zeroset.scene.surface import Surface
 
 MOST_LEAVES = 64
 """Surfaces of a solid, each counted as often as it occurs."""

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, did_you_mean
-from zeroset.expr import OPS, Expr, degree, evaluate, parse, postorder, text
+from zeroset.errors import FormulaError, ParameterError, did_you_mean
+from zeroset.expr import Expr, parse, text
 from zeroset.expr.text import brief
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.exprfield import ExprField, check_work
 from zeroset.scene.isovalues import colors_of, isovalues_of
 from zeroset.scene.light import Color, Material
 from zeroset.scene.parameters import TIME, array, check_names, scalar
@@ -29,51 +30,6 @@ if TYPE_CHECKING:
     import sympy
 
     from zeroset.scene.solid import Solid
-
-MOST_WORK = 4000
-"""Operations up to which a formula is compiled, functions counted several times: about half a minute."""
-_FUNCTION_WORK = 8
-
-
-@dataclass(frozen=True)
-class ExprField:
-    """An expression as something to evaluate on any number system."""
-
-    expr: Expr
-
-    @property
-    def digest(self) -> str:
-        """Hash of the expression's structure."""
-        return self.expr.digest
-
-    @property
-    def parameters(self) -> frozenset[str]:
-        """Scalar parameters, with ``w`` where it is used."""
-        return self.expr.parameters | (self.expr.variables & {TIME})
-
-    @property
-    def arrays(self) -> frozenset[str]:
-        """Array parameters."""
-        return self.expr.arrays
-
-    @cached_property
-    def degree(self) -> int | None:
-        """An upper bound of the degree in x, y, z; None for what is no polynomial."""
-        return degree(self.expr)
-
-    @cached_property
-    def highest_power(self) -> int:
-        """The largest whole exponent in f as it is written."""
-        return max((abs(int(part.data[0])) for part in postorder(self.expr) if part.op == "powi"), default=1)
-
-    @cached_property
-    def work(self) -> int:
-        """What compiling f costs, in arithmetic operations; functions and powers count for several."""
-        return sum(_FUNCTION_WORK if OPS[part.op].kind == "function" else 1 for part in postorder(self.expr))
-
-    def evaluate(self, system: Any, env: Any) -> Any:
-        """f on numbers of ``system``."""
-        return evaluate(self.expr, system, env)
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,18 +191,6 @@ class Surface:
 
     def __repr__(self) -> str:
         return f"<zeroset.Surface {self.name or brief(self.field.expr, 60)!r}>"
-
-
-def check_work(work: int) -> None:
-    """Raise ``FormulaLimitError`` for so many operations that no compiler digests them while somebody waits."""
-    if work > MOST_WORK:
-        raise FormulaLimitError(
-            f"the formula has too many operations to be drawn: {work:,} of at most {MOST_WORK:,}",
-            hints=(
-                "put repeated data (such as sphere centres) into an array parameter: sum(i, ... c[i] ...)",
-                "draw parts of it as surfaces of their own",
-            ),
-        )
 
 
 def _is_array(value: Any) -> bool:

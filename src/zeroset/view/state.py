@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Camera, fit_camera
+from zeroset.scene.coloring import suited
 from zeroset.scene.light import DEFAULT_LIGHTS, Color, Light, Material
 from zeroset.scene.scene import Scene
 from zeroset.scene.surface import Surface
@@ -93,7 +94,7 @@ class State:
     @property
     def scene(self) -> Scene:
         """What ``zs.render`` is given to make this picture."""
-        return Scene(self.surface, self.camera, self.material, self.lights, self.background)
+        return Scene(self.surface, self.camera, dressed(self.material, self.surface), self.lights, self.background)
 
     @property
     def bounds(self) -> Bounds:
@@ -110,11 +111,19 @@ class State:
         return replace(self, todo=(*self.todo, (what, value)))
 
 
+def dressed(material: Material, surface: Surface) -> Material:
+    """The material as a surface can have it: without a formula to colour by that is not meant for it."""
+    coloring = suited(material.coloring, surface)
+    return material if coloring is material.coloring else replace(material, coloring=coloring)
+
+
 def opened(scene: Scene, text: str, method: Method, device: str, tolerance: float | None) -> State:
     """The state that a window opens with."""
     surface = scene.plain("the window")
     refit = surface.bounds is None
-    surface = surface.with_bounds(surface.fitted)
+    # The window has one material: the surface's own, where it has one.
+    material = surface.material or scene.material
+    surface = surface.with_bounds(surface.fitted).with_material(None)
     camera = scene.camera or surface.camera or fit_camera(surface.fitted)
     return State(
         text,
@@ -122,7 +131,7 @@ def opened(scene: Scene, text: str, method: Method, device: str, tolerance: floa
         camera,
         camera,
         method,
-        scene.material,
+        material,
         scene.lights,
         scene.background,
         tolerance,
