@@ -13,7 +13,7 @@ from zeroset.errors import DeviceError, ZerosetError, did_you_mean
 if TYPE_CHECKING:
     from zeroset.expr import Expr
     from zeroset.kernel import Kernel
-    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.device import GpuDevice
     from zeroset.scene.scene import Scene
     from zeroset.scene.surface import Surface
     from zeroset.solve import Method
@@ -194,8 +194,8 @@ def _shader(kernel: Kernel, device: str) -> Iterator[str]:
 def _gpu(device: str) -> GpuDevice | None:
     """The GPU, where one was asked for by name or may well be there."""
     from zeroset.runtime import get_device
-    from zeroset.runtime.gpu import GpuDevice
     from zeroset.runtime.gpu.adapter import likely
+    from zeroset.runtime.gpu.device import GpuDevice
 
     if device != "gpu" and not likely():
         return None

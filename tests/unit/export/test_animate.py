@@ -80,9 +80,9 @@ class Counting(Meter):
         super().__init__(get_device(name))
         self.asked = self.allocated = self.copied = 0
 
-    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> Program:
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> Program:
         self.asked += 1
-        return super().compile_cached(key, build)
+        return super().compile_cached(key, build, quick)
 
     def allocate(self, type_: Type, count: int) -> Any:
         self.allocated += 1
