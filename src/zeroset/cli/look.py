@@ -1,4 +1,4 @@
-"""Options that say how a surface looks: shadows, surroundings, and what its material does with light."""
+"""Options that say how a surface looks: shadows, surroundings, its material, and what it is coloured by."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from zeroset.errors import ParameterError
+
 if TYPE_CHECKING:
+    from zeroset.scene.coloring import Coloring
     from zeroset.scene.scene import Scene
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -19,6 +22,13 @@ OPTIONS = (
     click.option("--opacity", type=float, help="1 for solid; below, what lies behind is seen through it."),
     click.option("--reflectance", type=float, help="Share of the light that is mirrored, 0 to 1."),
     click.option("--ior", type=float, help="Index of refraction of the inside; with an opacity below 1."),
+    click.option(
+        "--color-by",
+        metavar="QUANTITY|FORMULA",
+        help="gaussian-curvature, mean-curvature, gradient, steps, depth, or a formula in x, y, z and the parameters.",
+    ),
+    click.option("--map", "color_map", help="Its colours: lagoon, ember, gray, coolwarm, earth or wheel."),
+    click.option("--range", "color_range", metavar="LOW,HIGH", help="Values of the first and the last colour."),
 )
 
 
@@ -32,6 +42,33 @@ def look_options(function: F) -> F:
 def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
     """The scene with what the options say; what they leave out stays as it is."""
     changes = {name: look[name] for name in MATERIAL if look[name] is not None}
-    material = dataclasses.replace(scene.material, **changes)
+    coloring = _coloring(scene.material.coloring, look)
+    material = dataclasses.replace(scene.material, coloring=coloring, **changes)
     around = look["environment"] or scene.environment
     return dataclasses.replace(scene, material=material, environment=around, shadows=look["shadows"] or scene.shadows)
+
+
+def _coloring(coloring: Coloring | None, look: dict[str, Any]) -> Coloring | None:
+    """What the surface is coloured by, with what the options say of it."""
+    from zeroset.scene.coloring import Coloring
+
+    if look["color_by"] is not None:
+        coloring = Coloring(look["color_by"])
+    changes: dict[str, Any] = {}
+    if look["color_map"] is not None:
+        changes["map"] = look["color_map"]
+    if look["color_range"] is not None:
+        changes["range"] = _range(look["color_range"])
+    if changes and coloring is None:
+        raise ParameterError(
+            "there is a colour map or a range, but nothing to colour by", hint="try --color-by gaussian-curvature"
+        )
+    return coloring if coloring is None else dataclasses.replace(coloring, **changes)
+
+
+def _range(text: str) -> tuple[float, float]:
+    try:
+        low, high = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ParameterError(f"cannot read the range {text!r}", hint="write two numbers: --range=-2,2") from None
+    return low, high

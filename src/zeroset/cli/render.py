@@ -21,6 +21,7 @@ from zeroset.cli.source import (
     read_size,
     surface_options,
 )
+from zeroset.errors import ParameterError
 
 if TYPE_CHECKING:
     from zeroset.rendering.image import Image
@@ -41,9 +42,12 @@ if TYPE_CHECKING:
 @click.option("--height", type=float, help="World length across the picture, for an orthographic camera.")
 @click.option("--orbit", type=float, default=0.0, help="Turn the camera about z by so many degrees.")
 @look_options
+@click.option("--legend", is_flag=True, help="Draw a colour bar onto the picture; with --color-by.")
 @click.option("--save-scene", metavar="FILE", help="Write the scene as a .toml file too.")
 @click.option(
-    "--save-outputs", metavar="FILE", help="Write depth, normal, status, steps and t as a NumPy .npz file too."
+    "--save-outputs",
+    metavar="FILE",
+    help="Write depth, normal, status, steps, t and the value coloured by as a NumPy .npz file too.",
 )
 def command(
     source: str,
@@ -61,6 +65,7 @@ def command(
     fov: float | None,
     height: float | None,
     orbit: float,
+    legend: bool,
     save_scene: str | None,
     save_outputs: str | None,
     **look: Any,
@@ -76,6 +81,8 @@ def command(
             existing_folder(extra)
     scene = find_scene(source, params, bounds)
     scene = with_look(scene, look)
+    if legend and scene.material.coloring is None:
+        raise ParameterError("there is nothing that a legend could explain", hint="try --color-by gaussian-curvature")
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     # What writes pictures is loaded while the compiler works, outside Python's lock.
     threading.Thread(target=_load_formats, daemon=True).start()
@@ -92,7 +99,7 @@ def command(
             progress=progress,
         )
     spent = time.perf_counter() - begin
-    _save(image, scene, path, save_scene, save_outputs)
+    _save(image, scene, path, legend, save_scene, save_outputs)
     _tell(image, path, spent, scene.surface.fitted)
 
 
@@ -103,8 +110,10 @@ def _load_formats() -> None:
     Pillow.preinit()
 
 
-def _save(image: Image, scene: Scene, path: Path, save_scene: str | None, save_outputs: str | None) -> None:
-    image.save(path)
+def _save(
+    image: Image, scene: Scene, path: Path, legend: bool, save_scene: str | None, save_outputs: str | None
+) -> None:
+    image.save(path, legend)
     if save_scene is not None:
         from zeroset.scene.file import save
 
@@ -113,10 +122,9 @@ def _save(image: Image, scene: Scene, path: Path, save_scene: str | None, save_o
         import numpy as np
 
         from zeroset.atomic import replacing
-        from zeroset.rendering.image import AOVS
 
         with replacing(save_outputs) as file:
-            outputs: dict[str, Any] = {name: image.aov(name) for name in AOVS}
+            outputs: dict[str, Any] = {name: image.aov(name) for name in image.outputs}
             np.savez_compressed(file, **outputs)
 
 
@@ -124,6 +132,9 @@ def _tell(image: Image, path: Path, spent: float, bounds: Bounds) -> None:
     width, height = image.size
     notes = f", {image.unresolved} of them unresolved" if image.unresolved else ""
     click.echo(f"{path}: {width}x{height}, {image.hits} pixels of surface{notes}, {spent * 1e3:.0f} ms")
+    if image.coloring is not None and image.range is not None:
+        low, high = image.range
+        click.echo(f"colours: {image.coloring.quantity.title} from {low:.4g} to {high:.4g}")
     if not image.hits:
         proof = "certified: " if image.certified else ""
         click.echo(

@@ -13,10 +13,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.rendering.buffers import FIELDS, QUEUE_WORDS
+from zeroset.kernel.types import F32
+from zeroset.rendering.buffers import FIELDS, QUEUE_WORDS, VALUE
 from zeroset.rendering.frame import GBuffer
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import Optics
+from zeroset.rendering.tint import Palette
 from zeroset.runtime import Device
 from zeroset.scene.camera import Rays
 
@@ -63,11 +65,17 @@ def bands(layout: Layout, device: Device, optics: Optics | None = None) -> Itera
 
 
 class Assembled:
-    """The outputs of all bands of a picture, on the host; what ``GBuffer`` is to a picture drawn at once."""
+    """The outputs of all bands of a picture, on the host; what ``GBuffer`` is to a picture drawn at once.
 
-    def __init__(self, layout: Layout) -> None:
+    Attributes:
+        range: values of the first and the last colour, where a value gives the colour.
+    """
+
+    def __init__(self, layout: Layout, palette: Palette | None = None) -> None:
+        self.range = None if palette is None else palette.range
+        fields = FIELDS if palette is None else {**FIELDS, VALUE: F32}
         shape = (layout.height, layout.width)
-        self._rows = {name: np.zeros(shape, type_.dtype) for name, type_ in FIELDS.items()}
+        self._rows = {name: np.zeros(shape, type_.dtype) for name, type_ in fields.items()}
         self._picture = np.zeros((*shape, 4), np.uint8)
 
     def add(self, band: Band, outputs: GBuffer) -> None:

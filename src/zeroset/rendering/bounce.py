@@ -23,6 +23,7 @@ from zeroset.rendering.buffers import (
 )
 from zeroset.rendering.layout import Layout
 from zeroset.rendering.shading import Illumination, Optics
+from zeroset.rendering.tint import Tint
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Counted, Device
 from zeroset.scene.bounds import bounds_kind
@@ -45,22 +46,30 @@ class Bounces:
         optics: which rays there are.
         layout: of the frame.
         device: where.
+        tint: what the surface is coloured by; None for nothing.
     """
 
     def __init__(
-        self, tracer: Tracer, surface: Surface, method: Method, optics: Optics, layout: Layout, device: Device
+        self,
+        tracer: Tracer,
+        surface: Surface,
+        method: Method,
+        optics: Optics,
+        layout: Layout,
+        device: Device,
+        tint: Tint | None = None,
     ) -> None:
         field, kind, offset = surface.field, bounds_kind(surface.bounds), method.offset != 0.0
 
         def first() -> Kernel:
             from zeroset.rendering.paths import first_path_kernel
 
-            return first_path_kernel(field, offset, kind, optics)
+            return first_path_kernel(field, offset, kind, optics, tint is not None)
 
         def path() -> Kernel:
             from zeroset.rendering.paths import path_kernel
 
-            return path_kernel(field, offset, kind, optics)
+            return path_kernel(field, offset, kind, optics, tint)
 
         def resolve() -> Kernel:
             from zeroset.rendering.paths import resolve_kernel
@@ -75,7 +84,8 @@ class Bounces:
         if optics.smooth:
             tracer.add(f"edges {tracer.beams}", edges)
         own = f"{field.digest} {kind} {offset} {optics}"
-        self._names = f"path_first {own}", f"path {own}", f"resolve {optics.plain}"
+        first_own, path_own = ("", "") if tint is None else (" colored", f" {tint.digest}")
+        self._names = f"path_first {own}{first_own}", f"path {own}{path_own}", f"resolve {optics.plain}"
         self._plain = optics.plain
         for name, build in zip(self._names, (first, path, resolve), strict=True):
             if not (self._plain and build is first):

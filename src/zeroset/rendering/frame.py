@@ -18,11 +18,13 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.kernel import Kernel
-from zeroset.kernel.types import U32
+from zeroset.kernel.types import F32, U32
 from zeroset.rendering.bounce import Bounces
-from zeroset.rendering.buffers import COUNTERS, FIELDS, LIT, PICTURE
+from zeroset.rendering.buffers import COUNTERS, FIELDS, LIT, PICTURE, VALUE
+from zeroset.rendering.coloring import Colors
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import Illumination, Lighting
+from zeroset.rendering.tint import Palette, Tint
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device
 from zeroset.scene.bounds import bounds_kind
@@ -50,12 +52,20 @@ class Structure:
     lighting: Lighting
     layout: Layout
     device: int
+    tint: str
 
 
 class GBuffer:
-    """One frame's outputs: shared with the frame until its next draw, its own from then on; read when asked for."""
+    """One frame's outputs: shared with the frame until its next draw, its own from then on; read when asked for.
 
-    def __init__(self, layout: Layout, device: Device, buffers: Mapping[str, Any]) -> None:
+    Attributes:
+        range: values of the first and the last colour, where a value gives the colour.
+    """
+
+    def __init__(
+        self, layout: Layout, device: Device, buffers: Mapping[str, Any], range: tuple[float, float] | None = None
+    ) -> None:
+        self.range = range
         self._layout = layout
         self._device = device
         self._buffers = buffers
@@ -89,6 +99,7 @@ class Frame:
         layout: Layout,
         device: Device,
         draft: bool = False,
+        tint: Tint | None = None,
     ) -> None:
         def shader() -> Kernel:
             from zeroset.rendering.shade import shade_kernel
@@ -103,11 +114,12 @@ class Frame:
         self._tracer = Tracer(surface, method, device, True, shadows=lighting.shadows, ends=ends)
         self._shader = f"shade {lighting}"
         self._bounces: Bounces | None = None
+        self._colors = None if tint is None else Colors(self._tracer, surface, method, tint, layout, device)
         self._shades = optics is None or optics.plain
         if self._shades:
             self._tracer.add(self._shader, shader)
         if optics is not None:
-            self._bounces = Bounces(self._tracer, surface, method, optics, layout, device)
+            self._bounces = Bounces(self._tracer, surface, method, optics, layout, device, tint)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
         self.picture = device.allocate(U32, layout.width * layout.height)
@@ -130,6 +142,7 @@ class Frame:
         progress: Progress | None = None,
         draft: bool = False,
         light: Illumination | None = None,
+        palette: Palette | None = None,
     ) -> GBuffer:
         """Run the passes; gives the outputs, which a GPU may still be working on.
 
@@ -140,6 +153,7 @@ class Frame:
             progress: told the share that is done.
             draft: leave out second looks and thin parts, which some pixels need and every picture can do without.
             light: what shadows and rays beyond the first hit need.
+            palette: the colours of values, for a frame that has them.
         """
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
@@ -158,6 +172,11 @@ class Frame:
             self._tracer.second_look(surface, uniforms, bound)
         if thin and not draft:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
+        kept = FIELDS
+        range_: tuple[float, float] | None = None
+        if self._colors is not None and palette is not None:
+            uniforms, bound = self._colors.run(surface, palette, uniforms, bound)
+            kept, range_ = {**FIELDS, VALUE: F32}, self._colors.range
         if self._shades:
             if light is not None and LIT in self._buffers:
                 self._tracer.shadows(light.shadows, uniforms, bound)
@@ -165,9 +184,8 @@ class Frame:
         if self._bounces is not None and light is not None:
             self._bounces.run(uniforms, bound, self.picture, light)
         self.device.submit()
-        outputs = GBuffer(
-            self.layout, self.device, {PICTURE: self.picture} | {name: self._buffers[name] for name in FIELDS}
-        )
+        pictured = {PICTURE: self.picture} | {name: bound[name] for name in kept}
+        outputs = GBuffer(self.layout, self.device, pictured, range_)
         self._shown = weakref.ref(outputs)
         return outputs
 
@@ -181,15 +199,22 @@ KEPT_LANES = 1 << 23
 
 
 def frame_for(
-    surface: Surface, method: Method, lighting: Lighting, layout: Layout, device: Device, draft: bool = False
+    surface: Surface,
+    method: Method,
+    lighting: Lighting,
+    layout: Layout,
+    device: Device,
+    draft: bool = False,
+    tint: Tint | None = None,
 ) -> Frame:
     """The frame of a structure, kept from an earlier picture where there was one; its programs are being compiled."""
     kind = bounds_kind(surface.bounds)
-    structure = Structure(surface.field.digest, method.structure(), kind, lighting, layout, id(device))
+    colored = "" if tint is None else tint.digest
+    structure = Structure(surface.field.digest, method.structure(), kind, lighting, layout, id(device), colored)
     with _frames_lock:
         frame = _frames.get(structure)
         if frame is None:
-            frame = Frame(surface, method, lighting, layout, device, draft)
+            frame = Frame(surface, method, lighting, layout, device, draft, tint)
             _frames[structure] = frame
         else:
             frame.compile(draft)

@@ -14,11 +14,14 @@ import numpy.typing as npt
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
 from zeroset.rendering.bands import Assembled
-from zeroset.rendering.buffers import NORMAL
+from zeroset.rendering.buffers import NORMAL, VALUE
 from zeroset.rendering.frame import GBuffer
+from zeroset.scene.coloring import Coloring
+from zeroset.shade.colormap import LARGEST
 from zeroset.solve.status import MISS, UNRESOLVED
 
 AOVS = ("depth", "normal", "status", "steps", "t")
+_COLOR = 'say by what: render(..., color_by="gaussian-curvature")'
 
 
 FORMATS = {
@@ -75,6 +78,7 @@ class Image:
         size: width and height in pixels.
         pixels: (height, width, 3) uint8, sRGB.
         certified: whether the method proves its answers.
+        coloring: what the surface is coloured by; None for nothing.
 
     Example:
         >>> import zeroset as zs
@@ -85,9 +89,16 @@ class Image:
         np.uint32(1)
     """
 
-    def __init__(self, size: tuple[int, int], outputs: GBuffer | Assembled, certified: bool) -> None:
+    def __init__(
+        self,
+        size: tuple[int, int],
+        outputs: GBuffer | Assembled,
+        certified: bool,
+        coloring: Coloring | None = None,
+    ) -> None:
         self.size = size
         self.certified = certified
+        self.coloring = coloring
         self._outputs = outputs
 
     @cached_property
@@ -105,17 +116,34 @@ class Image:
         """How many pixels could be neither proven nor excluded; they are drawn as hits."""
         return int(np.count_nonzero(self.aov("status") == UNRESOLVED))
 
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """Values of the first and the last colour; None where the surface is not coloured by anything."""
+        return self._outputs.range
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """What ``aov`` can give."""
+        return AOVS if self.coloring is None else (*AOVS, VALUE)
+
     def aov(self, name: str) -> npt.NDArray[Any]:
         """One output of the G-buffer, in rows.
 
         Args:
             name: ``depth`` (distance along the viewing direction, inf where nothing is hit), ``t`` (nan there),
-                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved) or ``steps``.
+                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved), ``steps``, or ``value``, the
+                quantity that the surface is coloured by (nan where there is none).
         """
-        if name not in AOVS:
+        if name == VALUE and self.coloring is None:
+            raise ZerosetError("there is no value: the surface is not coloured by any", hint=_COLOR)
+        if name not in self.outputs:
+            known = self.outputs
             raise ZerosetError(
-                f"there is no output {name!r}", hints=(*did_you_mean(name, AOVS), f"there are {', '.join(AOVS)}")
+                f"there is no output {name!r}", hints=(*did_you_mean(name, known), f"there are {', '.join(known)}")
             )
+        if name == VALUE:
+            values = self._outputs.rows(VALUE)
+            return np.where(np.abs(values) <= LARGEST, values, np.float32(np.nan))
         if name == "normal":
             return np.stack([self._outputs.rows(axis) for axis in NORMAL], axis=-1)
         if name in ("t", "depth"):
@@ -132,14 +160,39 @@ class Image:
         """The picture as a PNG file's bytes."""
         return encode(self.pixels, "PNG")
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
+    def legend(self) -> npt.NDArray[np.uint8]:
+        """The picture with a colour bar, (height, width, 3): what the colours mean.
+
+        Raises:
+            ZerosetError: the surface is not coloured by anything.
+        """
+        from zeroset.rendering.legend import Key, with_legend
+
+        if self.coloring is None or self.range is None:
+            raise ZerosetError("there is no legend: the surface is not coloured by anything", hint=_COLOR)
+        values = self.aov(VALUE)[self.aov("status") != MISS]
+        known = values[~np.isnan(values)]
+        low, high = self.range
+        # What rounding puts beyond an end is no more than that; a cyclic map has no ends.
+        hair = np.inf if self.coloring.cyclic else 1e-5 * (high - low)
+        below, above = bool(np.any(known < low - hair)), bool(np.any(known > high + hair))
+        missing = len(known) < len(values)
+        key = Key(self.coloring.quantity.title, self.coloring.chosen_map, (low, high), below, above, missing)
+        return with_legend(self.pixels, key)
+
+    def save(self, path: str | os.PathLike[str], legend: bool = False) -> Path:
         """Write the picture, in the format of the suffix (.png, .jpg, .webp, .tif, .bmp), whole or not at all.
+
+        Args:
+            path: where.
+            legend: whether to draw a colour bar onto it.
 
         Raises:
             OutputError: the suffix names no picture format, or the file cannot be written.
+            ZerosetError: there is to be a legend, but the surface is not coloured by anything.
         """
         target = Path(path)
-        data = encode(self.pixels, picture_format(target))
+        data = encode(self.legend() if legend else self.pixels, picture_format(target))
         with replacing(target) as file:
             file.write(data)
         return target

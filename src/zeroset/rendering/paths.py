@@ -26,12 +26,16 @@ from zeroset.rendering.buffers import (
     QUEUED,
     QUEUEING,
     TEXELS,
+    VALUE,
 )
 from zeroset.rendering.gbuffer import behind, facing_back
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
 from zeroset.rendering.primary import problem_on
+from zeroset.rendering.quantity import Measure, Met
+from zeroset.rendering.shade import by_value
 from zeroset.rendering.shading import Optics
 from zeroset.rendering.shadow import way_is_free
+from zeroset.rendering.tint import Tint
 from zeroset.rendering.view import pixel_ray
 from zeroset.shade.environment import cube_color
 from zeroset.shade.reflectance import Face, dot, face, normalised
@@ -59,6 +63,7 @@ class Found:
         normal: unit gradient.
         clear: nothing was met up to here.
         end: what was met is behind the ray here.
+        value: what it is coloured by; None where it is not.
     """
 
     hit: Value
@@ -66,6 +71,7 @@ class Found:
     normal: Sequence[Value]
     clear: Value
     end: Value
+    value: Value | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,30 +84,41 @@ class _Carried:
     weight: tuple[Value, Value, Value]
 
 
-def first_path_kernel(field: Field, offset: bool, kind: str, optics: Optics) -> Kernel:
+def first_path_kernel(field: Field, offset: bool, kind: str, optics: Optics, colored: bool = False) -> Kernel:
     """Shade what the camera's rays have met, and send on what comes of it."""
     with KernelBuilder("path_first") as builder:
         lane = builder.index()
         ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
         t, clear, end = (load(builder.buffer(name, F32), lane) for name in ("t", *END))
         normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
-        found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end)
+        value = load(builder.buffer(VALUE, F32), lane) if colored else None
+        found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end, value)
         one = constant(1.0, F32)
         respond = _Response(builder, Lowered(field, builder, offset=offset), kind, optics, alone=True)
         respond.to(_Carried(lane, ray, constant(0.0, F32), (one, one, one)), found)
     return builder.kernel
 
 
-def path_kernel(field: Field, offset: bool, kind: str, optics: Optics) -> Kernel:
+def path_kernel(field: Field, offset: bool, kind: str, optics: Optics, tint: Tint | None = None) -> Kernel:
     """One run: the rays of a queue are traced and shaded, and what they send on goes to the next queue."""
     with KernelBuilder("path") as builder:
         place = builder.index()
         # More rays may have been counted than there was room for.
-        if_(place < builder.uniform("capacity", U32), lambda: _follow(builder, place, field, offset, kind, optics))
+        measure = None if tint is None else Measure(builder, field, offset, tint)
+        room = place < builder.uniform("capacity", U32)
+        if_(room, lambda: _follow(builder, place, (field, offset), kind, optics, measure))
     return builder.kernel
 
 
-def _follow(builder: KernelBuilder, place: Value, field: Field, offset: bool, kind: str, optics: Optics) -> None:
+def _follow(
+    builder: KernelBuilder,
+    place: Value,
+    surface: tuple[Field, bool],
+    kind: str,
+    optics: Optics,
+    measure: Measure | None,
+) -> None:
+    field, offset = surface
     queue = builder.buffer(QUEUED, U32)
     words = [load(queue, place * QUEUE_WORDS + i) for i in range(QUEUE_WORDS - 1)]
     numbers = [word.bitcast(F32) for word in words[1:]]
@@ -113,8 +130,13 @@ def _follow(builder: KernelBuilder, place: Value, field: Field, offset: bool, ki
     hit = answer.status.ne(MISS)
     zero = constant(0.0, F32)
     normal = if_(hit, lambda: facing_back(lowered, ray, answer), lambda: (zero, zero, zero))
+    value = None
+    if measure is not None:
+        met, known = Met(ray, answer.t, answer.steps), measure
+        (value,) = if_(hit, lambda: (known.at(met),), lambda: (zero,))
     respond = _Response(builder, lowered, kind, optics)
-    respond.to(_Carried(words[0], ray, start, weight), Found(hit, answer.t, normal, answer.clear, behind(answer)))
+    found = Found(hit, answer.t, normal, answer.clear, behind(answer), value)
+    respond.to(_Carried(words[0], ray, start, weight), found)
 
 
 class _Response:
@@ -158,7 +180,8 @@ class _Response:
         ray, optics = carried.ray, self.optics
         point = [found.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
         toward_eye = [-d for d in normalised(ray.direction)]
-        seen = face(self.uniform, found.normal, toward_eye)
+        albedo = None if found.value is None else by_value(self.builder, found.value)
+        seen = face(self.uniform, found.normal, toward_eye, albedo)
         color = self._lights(point, seen)
         opacity = self.uniform("opacity") if optics.through else constant(1.0, F32)
         mirror = self.uniform("reflectance") if optics.mirror else constant(0.0, F32)

@@ -14,11 +14,13 @@ from zeroset.rendering.bounce import MOST_DEEP
 from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import Illumination, Lighting, Smooth, shading_uniforms
+from zeroset.rendering.shading import Illumination, Lighting, Optics, Smooth, shading_uniforms
+from zeroset.rendering.tint import Palette, Tint
 from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, bounds_uniforms, number
 from zeroset.scene.camera import Camera, Rays, camera_uniforms, parse_camera
+from zeroset.scene.coloring import Coloring, as_coloring
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene, as_scene
@@ -29,6 +31,8 @@ MOST_SAMPLES = 256
 """Rays of one pixel."""
 LARGEST = 16384
 """Pixels along a side."""
+PREVIEW = 512
+"""Longer side of the picture that tells the range of colours where a picture is drawn in bands."""
 MOST_PIXELS = 1 << 26
 """Pixels in all: 48 bytes of memory each."""
 
@@ -57,6 +61,7 @@ def render(
     antialias: int = 1,
     samples: int = 1,
     progress: Progress | None = None,
+    color_by: Coloring | str | None = None,
 ) -> Image:
     """Draw a surface.
 
@@ -81,9 +86,11 @@ def render(
         antialias: rays of each pixel at a silhouette, a crease or another edge, 1 to 256; 16 makes them smooth.
         samples: rays of every pixel, 1 to 256, instead.
         progress: called now and then with the share that is done, from 0 to 1.
+        color_by: a quantity that gives the colour of each point: a ``zs.Coloring``, one's name, or a formula; None
+            takes the material's own.
 
     Returns:
-        The picture, with depth, normals, status and steps as ``image.aov(name)``.
+        The picture, with depth, normals, status, steps and the value coloured by as ``image.aov(name)``.
 
     Raises:
         ZerosetError: and its kinds, for what cannot be drawn; the message says what and how to mend it.
@@ -103,6 +110,8 @@ def render(
         shadows=scene.shadows if shadows is None else shadows,
         environment=scene.environment if environment is None else as_environment(environment),
     )
+    if color_by is not None:
+        scene = replace(scene, material=replace(scene.material, coloring=as_coloring(color_by)))
     shown, lit = scene.surface, scene.lights
     layout = _layout(size)
     chosen = resolve_method(method)
@@ -111,9 +120,10 @@ def render(
     target = get_device(device)
     smooth = _smooth(antialias, samples)
     lighting = Lighting.of(scene, smooth)
+    tint = Tint.of(scene, target)
     whole = fits(layout, target, lighting.optics)
     # First the frame: its kernels are compiled while the bounds are being fitted.
-    frame = frame_for(shown, chosen, lighting, layout, target, draft) if whole else None
+    frame = frame_for(shown, chosen, lighting, layout, target, draft, tint) if whole else None
     view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
@@ -122,24 +132,42 @@ def render(
     light = None
     if scene.shadows or lighting.optics is not None:
         light = Illumination.of(scene, rays, coarse, _depth(depth, lighting), smooth)
+    coloring = scene.material.coloring
+    palette = None if coloring is None else Palette.of(coloring, rays)
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
-            outputs = frame.draw(shown, uniforms, thin, progress, draft, light)
+            outputs = frame.draw(shown, uniforms, thin, progress, draft, light, palette)
     else:
-        outputs = Assembled(layout)
+        if palette is not None and palette.range is None:
+            # All bands have one range: that of the whole picture, drawn smaller.
+            small = _smaller(layout, target, lighting.optics)
+            seen = render(scene, (small.width, small.height), camera, method, target, tolerance, thin=thin)
+            palette = replace(palette, range=seen.range)
+        outputs = Assembled(layout, palette)
         parts = tuple(bands(layout, target, lighting.optics))
         for i, band in enumerate(parts):
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
-            part = frame_for(shown, chosen, lighting, band.layout, target, draft)
+            part = frame_for(shown, chosen, lighting, band.layout, target, draft, tint)
             with part.lock:
-                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft, light))
-    return Image((layout.width, layout.height), outputs, chosen.certified)
+                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft, light, palette))
+    return Image((layout.width, layout.height), outputs, chosen.certified, coloring)
 
 
 def _share(progress: Progress | None, part: int, parts: int) -> Progress | None:
     """The progress of one part as progress of the whole."""
     return None if progress is None else lambda done: progress((part + done) / parts)
+
+
+def _smaller(layout: Layout, device: Device, optics: Optics | None) -> Layout:
+    """A picture's size with its longer side cut down to ``PREVIEW``, and further until it fits."""
+    side = min(PREVIEW, max(layout.width, layout.height))
+    while True:
+        scale = side / max(layout.width, layout.height)
+        small = Layout(max(round(layout.width * scale), 1), max(round(layout.height * scale), 1))
+        if side <= TILE or fits(small, device, optics):
+            return small
+        side //= 2
 
 
 def _layout(size: tuple[int, int] | int) -> Layout:

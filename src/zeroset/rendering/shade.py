@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, if_, load, store
-from zeroset.rendering.buffers import LIT
+from zeroset.rendering.buffers import COLORS, LIT, VALUE
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
 from zeroset.rendering.shading import LIGHT, Lighting
 from zeroset.rendering.view import pixel_ray
+from zeroset.shade.albedo import Albedo
+from zeroset.shade.colormap import mapped
 from zeroset.shade.reflectance import blinn_phong, normalised
 from zeroset.shade.tone import encode, pack
 from zeroset.solve.field import Ray
@@ -24,7 +26,8 @@ def shade_kernel(lighting: Lighting) -> Kernel:
             ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
             toward_eye = [-d for d in normalised(ray.direction)]
             sources = _sources(builder, lighting, ray, lane)
-            color = blinn_phong(lambda name: builder.uniform(name, F32), normal, toward_eye, sources)
+            albedo = by_value(builder, load(builder.buffer(VALUE, F32), lane)) if lighting.colored else None
+            color = blinn_phong(lambda name: builder.uniform(name, F32), normal, toward_eye, sources, albedo)
             return tuple(encode(c) for c in color)
 
         def behind() -> tuple[object, ...]:
@@ -38,6 +41,11 @@ def shade_kernel(lighting: Lighting) -> Kernel:
         inside = (column < width) & (row < builder.uniform("height", U32))
         if_(inside, lambda: store(rgba, row * width + column, color))
     return builder.kernel
+
+
+def by_value(builder: KernelBuilder, value: Value) -> Albedo:
+    """The albedo of a point that is coloured by a value: through the frame's colour map."""
+    return mapped(builder.buffer(COLORS, F32), lambda name: builder.uniform(name, F32), value)
 
 
 def _sources(builder: KernelBuilder, lighting: Lighting, ray: Ray, lane: Value) -> list[list[Value]]:

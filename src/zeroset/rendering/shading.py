@@ -79,22 +79,25 @@ class Lighting:
         kinds: a letter for each: ``d`` far away in a direction, ``p`` at a place.
         shadows: whether they throw shadows.
         optics: where rays go on beyond the first hit; None where they do not.
+        colored: whether a pixel's value gives its colour.
     """
 
     kinds: str
     shadows: bool = False
 
     optics: Optics | None = None
+    colored: bool = False
 
     @classmethod
     def of(cls, scene: Scene, smooth: Smooth) -> Lighting:
         """The lighting of a scene."""
         optics = Optics.of(scene, smooth)
+        colored = scene.material.coloring is not None
         if optics is not None and not optics.plain:
             # There the lights are data.
-            return cls("", False, optics)
+            return cls("", False, optics, colored)
         kinds = "".join("d" if light.position is None else "p" for light in scene.lights)
-        return cls(kinds, scene.shadows, optics)
+        return cls(kinds, scene.shadows, optics, colored)
 
 
 @dataclass(frozen=True, slots=True)

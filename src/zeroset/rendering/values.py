@@ -6,6 +6,7 @@ is about the number that the user gave.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -34,12 +35,18 @@ def stored(exact: npt.NDArray[np.float64], type_: Type) -> tuple[Floats, Floats]
 def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32) -> dict[str, float]:
     """The parameters' values, the arrays' lengths and the method's options by uniform name."""
     values = {name: surface.params[name] for name in surface.field.parameters} | {OFFSET: method.offset}
+    named = method.uniforms() | scalar_uniforms(values, type_)
+    return named | {length_name(name): len(surface.arrays[name]) for name in surface.field.arrays}
+
+
+def scalar_uniforms(values: Mapping[str, float], type_: Type = F32) -> dict[str, float]:
+    """Values of scalar parameters, and what storing them leaves out, by uniform name."""
     near, error = stored(np.array(list(values.values()), np.float64), type_)
-    named = method.uniforms()
+    named = {}
     for i, name in enumerate(values):
         value_name, error_name = parameter_names(name, type_)
         named[value_name], named[error_name] = float(near[i]), float(error[i])
-    return named | {length_name(name): len(surface.arrays[name]) for name in surface.field.arrays}
+    return named
 
 
 class Arrays:
@@ -71,4 +78,4 @@ class Arrays:
         return self._buffers[key]
 
 
-__all__ = ["Arrays", "parameter_uniforms", "stored"]
+__all__ = ["Arrays", "parameter_uniforms", "scalar_uniforms", "stored"]

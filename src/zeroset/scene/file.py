@@ -11,6 +11,7 @@ Every key is optional but ``formula``:
     params = {a = 5.0}
     camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
     material = {front = [0.9, 0.5, 0.1], shininess = 40}
+    material.coloring = {by = "gaussian-curvature", map = "coolwarm", range = [-2, 2]}   # or the quantity alone
     [[lights]]
     direction = [-0.4, 0.7, 0.7]
 """
@@ -28,6 +29,7 @@ from typing import Any
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
 from zeroset.scene.bounds import Ball, Bounds, parse_bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.coloring import Coloring, formula_of
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
 from zeroset.scene.scene import MOST_LIGHTS, Scene, as_scene
@@ -123,7 +125,7 @@ class _Reader:
         with _placing(self, "bounds"):
             shape = dataclasses.replace(shape, bounds=parse_bounds(data.get("bounds")))
         camera = None if "camera" not in data else self.build(Camera, data["camera"], "camera")
-        material = self.build(Material, data.get("material", {}), "material")
+        material = self._material(data.get("material", {}), shape)
         around = data.get("environment")
         if isinstance(around, Mapping):
             around = self.build(Environment, around, "environment")
@@ -140,6 +142,15 @@ class _Reader:
                 data.get("shadows", False),
                 around,
             )
+
+    def _material(self, data: Any, shape: Surface) -> Any:
+        if isinstance(data, Mapping) and isinstance(data.get("coloring"), Mapping):
+            data = {**data, "coloring": self.build(Coloring, data["coloring"], "coloring")}
+        material = self.build(Material, data, "material")
+        if material.coloring is not None:
+            with _placing(self, "by" if isinstance(data["coloring"], Coloring) else "coloring"):
+                formula_of(material.coloring, shape)
+        return material
 
     def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
         value = data.get(key, {})
@@ -201,15 +212,22 @@ def dumps(scene: Scene | Surface) -> str:
         data["params"] = params
     camera = scene.camera or shape.camera
     if camera is not None:
-        data["camera"] = {k: v for k, v in dataclasses.asdict(camera).items() if v is not None}
-    data["material"] = dataclasses.asdict(scene.material)
+        data["camera"] = _given(dataclasses.asdict(camera))
+    data["material"] = _given(dataclasses.asdict(scene.material))
+    if scene.material.coloring is not None:
+        data["material"]["coloring"] = _given(dataclasses.asdict(scene.material.coloring))
     if scene.shadows:
         data["shadows"] = True
     if scene.environment is not None:
         around = scene.environment
         data["environment"] = around.source if around.strength == 1.0 else dataclasses.asdict(around)
-    data["lights"] = [{k: v for k, v in dataclasses.asdict(light).items() if v is not None} for light in scene.lights]
+    data["lights"] = [_given(dataclasses.asdict(light)) for light in scene.lights]
     return tomli_w.dumps(data)
+
+
+def _given(data: dict[str, Any]) -> dict[str, Any]:
+    """What of it is not None, which TOML does not know."""
+    return {k: v for k, v in data.items() if v is not None}
 
 
 def _bounds_data(bounds: Bounds) -> Any:

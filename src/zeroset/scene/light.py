@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from zeroset.errors import ParameterError
 from zeroset.scene.bounds import Vector, number, vector
+from zeroset.scene.coloring import Coloring, as_coloring
 
 Color = tuple[float, float, float]
 
@@ -68,6 +69,7 @@ class Material:
         opacity: 1 for solid; below, what lies behind is seen through it.
         reflectance: share of the light that is mirrored.
         ior: index of refraction of the inside, where f < 0, against the outside; 1 bends nothing.
+        coloring: colours both sides by a quantity instead; text for one in its usual colours.
     """
 
     front: Color = (0.95, 0.52, 0.12)
@@ -79,6 +81,7 @@ class Material:
     opacity: float = 1.0
     reflectance: float = 0.0
     ior: float = 1.0
+    coloring: Coloring | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "front", color(self.front, "a material's front colour"))
@@ -93,6 +96,7 @@ class Material:
         for name in ("opacity", "reflectance"):
             if not 0 <= getattr(self, name) <= 1:
                 raise ParameterError(f"a material's {name} must be from 0 to 1, not {getattr(self, name)!r}")
+        object.__setattr__(self, "coloring", as_coloring(self.coloring))
         if not 0.1 <= self.ior <= 10:
             raise ParameterError(f"a material's index of refraction must be from 0.1 to 10, not {self.ior!r}")
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.scene.camera import Camera
+from zeroset.scene.coloring import formula_of
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
 from zeroset.scene.surface import Surface, surface
@@ -50,6 +51,8 @@ class Scene:
             raise ParameterError(f"a scene's material must be a Material, not {self.material!r}")
         if not isinstance(self.shadows, bool):
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
+        if self.material.coloring is not None:
+            formula_of(self.material.coloring, self.surface)
         object.__setattr__(self, "environment", as_environment(self.environment))
         lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
         for light in lights:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from zeroset.kernel import Value
+from zeroset.shade.albedo import Albedo, two_sided
 from zeroset.shade.power import shine
 
 Color = tuple[Value, Value, Value]
@@ -32,6 +33,7 @@ def blinn_phong(
     normal: Sequence[Value],
     toward_eye: Sequence[Value],
     lights: Sequence[Sequence[Value]],
+    albedo: Albedo | None = None,
 ) -> Color:
     """Colour of a point.
 
@@ -40,8 +42,9 @@ def blinn_phong(
         normal: unit gradient, or zero.
         toward_eye: unit vector to the viewer.
         lights: for each light its unit direction (3) and colour (3).
+        albedo: the colour that the point has without light; None for the material's two.
     """
-    seen = face(uniform, normal, toward_eye)
+    seen = face(uniform, normal, toward_eye, albedo)
     color = seen.ambient
     for x, y, z, r, g, b in lights:
         color = seen.lit(color, (x, y, z), (r, g, b))
@@ -76,13 +79,18 @@ class Face:
         return r, g, b
 
 
-def face(uniform: Callable[[str], Value], normal: Sequence[Value], toward_eye: Sequence[Value]) -> Face:
+def face(
+    uniform: Callable[[str], Value],
+    normal: Sequence[Value],
+    toward_eye: Sequence[Value],
+    albedo: Albedo | None = None,
+) -> Face:
     """The side of a point that the viewer sees; arguments as of ``blinn_phong``."""
     facing = dot(normal, toward_eye)
     singular = dot(normal, normal) < 0.25
     back = facing < 0.0
     n = [singular.select(v, back.select(-x, x)) for x, v in zip(normal, toward_eye, strict=True)]
-    base = [back.select(uniform(f"back_{c}"), uniform(f"front_{c}")) for c in "rgb"]
+    base = (albedo or two_sided(uniform))(back)
     ambient = uniform("ambient")
     r, g, b = (k * ambient for k in base)
     return Face(n, toward_eye, base, (r, g, b), uniform)

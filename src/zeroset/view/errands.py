@@ -12,6 +12,7 @@ import numpy as np
 from zeroset.atomic import check_writable, replacing
 from zeroset.errors import ZerosetError
 from zeroset.view import snippet
+from zeroset.view.state import dressed
 from zeroset.view.worker import told
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def gallery(session: Session, value: str) -> None:
     state = session.state
     surface = shelf[value]
     session.state = replace(state, text=entry(value).formula, spans={}, motions={}, flying=False)
-    session.show(Scene(surface, None, state.material, state.lights, state.background))
+    session.show(Scene(surface, None, dressed(state.material, surface), state.lights, state.background))
 
 
 def fit_bounds(session: Session, value: str) -> None:

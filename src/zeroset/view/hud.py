@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Any
 
+from zeroset.rendering.legend import bar_colors
 from zeroset.view import theme
 from zeroset.view.controls import Pane
 from zeroset.view.lines import strokes
@@ -67,7 +68,10 @@ def _legend(imgui: Any, pen: Any, legend: Legend, pane: Pane) -> None:
     x, y = pane.x + pane.width - width - 24, pane.y + 44
     pen.add_rect_filled((x - 12, y - 30), (x + width + 12, y + height + 26), packed(imgui, SHADE, 0.82), 6.0)
     pen.add_text((x, y - 24), packed(imgui, theme.TEXT), legend.title)
-    tints = [tuple(c / 255 for c in color) for color in HEAT] if legend.heat else [(0.16,) * 3, (1.0,) * 3]
+    colors = bar_colors(legend.map, 33) if legend.map else HEAT
+    tints = [tuple(float(c) / 255 for c in color) for color in colors]
+    if not (legend.heat or legend.map):
+        tints = [(0.16,) * 3, (1.0,) * 3]
     for i, (left, right) in enumerate(pairwise(tints)):
         a, b = (x + width * (i + k) / (len(tints) - 1) for k in (0, 1))
         ends = (packed(imgui, left), packed(imgui, right))

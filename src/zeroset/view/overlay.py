@@ -33,12 +33,14 @@ class Legend:
         low: value of the first colour.
         high: value of the last one.
         heat: whether the colours are those of the heat map; grey from dark to bright otherwise.
+        map: the colour map of a surface that is coloured by a quantity; "" for an overlay.
     """
 
     title: str
     low: float
     high: float
     heat: bool = True
+    map: str = ""
 
 
 def heat(share: npt.NDArray[Any]) -> Pixels:
@@ -65,6 +67,9 @@ def coloured(image: Image, overlay: str) -> tuple[Pixels, Legend | None]:
         return _normals(image), None
     if overlay == "unresolved":
         return _unresolved(image), None
+    if image.coloring is not None and image.range is not None:
+        low, high = image.range
+        return image.pixels, Legend(image.coloring.quantity.title, low, high, map=image.coloring.chosen_map)
     return image.pixels, None
 
 

@@ -21,6 +21,7 @@ from zeroset.solve.method import Method
 from zeroset.view import formula
 from zeroset.view.orbit import refitted
 from zeroset.view.overlay import Legend, coloured
+from zeroset.view.state import dressed
 from zeroset.view.worker import GivenUp, Superseded
 
 FIRST = 320
@@ -187,7 +188,7 @@ def _first(shot: Shot, surface: Surface, camera: Camera) -> Picture:
     width, height = shot.size
     scale = min(1.0, FIRST / max(width, height))
     size = max(1, round(width * scale)), max(1, round(height * scale))
-    scene = replace(shot.scene, surface=surface, camera=camera)
+    scene = replace(shot.scene, surface=surface, camera=camera, material=dressed(shot.scene.material, surface))
     return paint(replace(shot, scene=scene, size=size, moving=True), lambda: False)
 
 

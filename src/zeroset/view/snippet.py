@@ -8,6 +8,7 @@ from typing import Any
 
 from zeroset.scene.bounds import Ball, Bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.coloring import Coloring
 from zeroset.scene.file import dumps
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
 from zeroset.scene.surface import Surface
@@ -19,8 +20,9 @@ def python(state: State, size: tuple[int, int]) -> str:
     """A program that draws what the window shows and saves it as ``picture.png``; colours of overlays apart."""
     lines = ["import zeroset as zs", "", f"surface = {_surface(state.surface)}", f"camera = {_camera(state.camera)}"]
     scene = ["surface", "camera"]
-    if state.material != Material():
-        scene.append(f"material={_changed('zs.Material', state.material, Material())}")
+    material = state.scene.material
+    if material != Material():
+        scene.append(f"material={_changed('zs.Material', material, Material())}")
     if state.lights != DEFAULT_LIGHTS:
         lights = ", ".join(_changed("zs.Light", light, Light()) for light in state.lights)
         scene.append(f"lights=({lights}{',' if len(state.lights) == 1 else ''})")
@@ -101,5 +103,9 @@ def _options(method: Method) -> dict[str, Any]:
 def _changed(name: str, value: Any, plain: Any) -> str:
     """A call that makes a value, with those fields only that differ from the plain one's."""
     fields = [f.name for f in dataclasses.fields(value)]
-    changed = [f"{f}={getattr(value, f)!r}" for f in fields if getattr(value, f) != getattr(plain, f)]
+    changed = [f"{f}={_value(getattr(value, f))}" for f in fields if getattr(value, f) != getattr(plain, f)]
     return f"{name}({', '.join(changed)})"
+
+
+def _value(value: Any) -> str:
+    return _changed("zs.Coloring", value, Coloring()) if isinstance(value, Coloring) else repr(value)

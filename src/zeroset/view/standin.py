@@ -18,14 +18,16 @@ from zeroset.view.worker import Failed, Newest, Superseded
 
 SMALL = 32
 """Side of the picture that is drawn to compile everything."""
-Structure = tuple[str, str, str, int, str]
+Structure = tuple[str, str, str, int, str, str]
 
 
 def structure(shot: Shot) -> Structure:
     """What the kernels of a picture depend on."""
     surface = shot.scene.surface
     lights = len(shot.scene.lights)
-    return surface.field.digest, shot.method.structure(), bounds_kind(surface.bounds), lights, shot.device
+    coloring = shot.scene.material.coloring
+    by = "" if coloring is None else coloring.by
+    return surface.field.digest, shot.method.structure(), bounds_kind(surface.bounds), lights, shot.device, by
 
 
 class StandIn:

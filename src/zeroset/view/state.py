@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Camera, fit_camera
+from zeroset.scene.coloring import suited
 from zeroset.scene.light import DEFAULT_LIGHTS, Color, Light, Material
 from zeroset.scene.scene import Scene
 from zeroset.scene.surface import Surface
@@ -93,7 +94,7 @@ class State:
     @property
     def scene(self) -> Scene:
         """What ``zs.render`` is given to make this picture."""
-        return Scene(self.surface, self.camera, self.material, self.lights, self.background)
+        return Scene(self.surface, self.camera, dressed(self.material, self.surface), self.lights, self.background)
 
     @property
     def bounds(self) -> Bounds:
@@ -108,6 +109,12 @@ class State:
     def ask(self, what: str, value: str = "") -> State:
         """The state with one more thing to do for the window."""
         return replace(self, todo=(*self.todo, (what, value)))
+
+
+def dressed(material: Material, surface: Surface) -> Material:
+    """The material as a surface can have it: without a formula to colour by that is not meant for it."""
+    coloring = suited(material.coloring, surface)
+    return material if coloring is material.coloring else replace(material, coloring=coloring)
 
 
 def opened(scene: Scene, text: str, method: Method, device: str, tolerance: float | None) -> State:

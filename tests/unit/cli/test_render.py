@@ -140,6 +140,14 @@ BAD = [
     ([BALL, "--fov", "180"], ["fov"]),
     ([BALL, "--fov", "30", "--height", "1"], ["either a fov or a height"]),
     ([BALL, "--orbit", "nan"], ["finite"]),
+    ([BALL, "--color-by", "gausian-curvature"], ["did you mean gaussian-curvature", "mean-curvature, gradient, steps"]),
+    ([BALL, "--color-by", "x +"], ["a value is missing", "  x +\n", "^"]),
+    ([BALL, "--color-by", "x + q"], ["unknown name q", "the surface's parameters: none"]),
+    ([BALL, "--color-by", "x", "--map", "viridis"], ["no colour map 'viridis'", "lagoon is much like it"]),
+    ([BALL, "--color-by", "x", "--range", "1"], ["cannot read the range", "--range=-2,2"]),
+    ([BALL, "--color-by", "x", "--range", "2,1"], ["begin below its end"]),
+    ([BALL, "--map", "ember"], ["nothing to colour by", "--color-by"]),
+    ([BALL, "--legend"], ["nothing that a legend could explain"]),
     ([BALL, "--frobnicate"], ["No such option"]),
     ([BALL, "x"], ["unexpected extra argument"]),
     ([], ["Missing argument"]),
@@ -192,6 +200,24 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
     assert (glass.opacity, glass.ior, glass.reflectance) == (0.2, 1.4, 0.1)
     assert zs.load(tmp_path / "shadows.toml").shadows
     assert zs.load(tmp_path / "sky.toml").environment is not None
+
+
+def test_colours_and_their_legend(zeroset: Run, tmp_path: Path) -> None:
+    by = ("--color-by", "gaussian-curvature", "--map", "earth", "--range", "-2,2")
+    more = ("--save-scene", "t.toml", "--save-outputs", "t.npz")
+    ran = zeroset("render", "torus", "-s", "160", "-o", "t.png", *by, *more)
+    assert (ran.status, ran.err) == (0, "")
+    assert "colours: Gaussian curvature from -2 to 2" in ran.out
+    assert zs.load(tmp_path / "t.toml").material.coloring == zs.Coloring("gaussian-curvature", "earth", (-2, 2))
+    with np.load(tmp_path / "t.npz") as outputs:
+        assert np.array_equal(np.isnan(outputs["value"]), outputs["status"] == 0)
+    again = zeroset("render", "t.toml", "-s", "160", "-o", "again.png", "--legend")
+    assert again.status == 0
+    assert not np.array_equal(picture(tmp_path / "t.png"), picture(tmp_path / "again.png"))
+    assert np.array_equal(picture(tmp_path / "t.png")[:, :70], picture(tmp_path / "again.png")[:, :70])
+    found = zeroset("render", "t.toml", "-s", "48", "-o", "found.png", "--color-by", "z")
+    assert found.status == 0
+    assert "colours: z from" in found.out
 
 
 @pytest.mark.parametrize(

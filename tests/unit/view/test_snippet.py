@@ -35,6 +35,11 @@ def states() -> dict[str, State]:
     return {
         "plain": plain(),
         "coloured": replace(plain(), background=(0.0, 0.1, 0.2), material=zs.Material(front=(0, 1, 0), shininess=7.0)),
+        "by curvature": replace(
+            plain(), material=zs.Material(coloring=zs.Coloring("mean-curvature", "earth", (-1, 1)))
+        ),
+        "by a formula": replace(plain(), material=zs.Material(coloring=zs.Coloring("a*x + z"), specular=0.0)),
+        "by no formula of its own": replace(plain(), material=zs.Material(coloring=zs.Coloring("q*x + z"))),
         "lit": replace(plain(), lights=(light,)),
         "arrays": opened(Scene(arrays), "", resolve_method("auto"), "auto", None),
         "off centre": opened(Scene(moved), "", resolve_method("auto"), "auto", 0.001),

@@ -79,3 +79,13 @@ def test_nothing_stands_in_for_the_cpu() -> None:
 
 def test_warming_draws_a_small_picture() -> None:
     standin.compiled(replace(SHOT, device="cpu"), lambda: False)
+
+
+def test_another_quantity_is_another_picture_to_compile() -> None:
+    def by(coloring: zs.Coloring) -> Shot:
+        return replace(SHOT, scene=replace(SHOT.scene, material=zs.Material(coloring=coloring)))
+
+    curved = standin.structure(by(zs.Coloring("gaussian-curvature")))
+    assert curved != standin.structure(SHOT)
+    assert curved != standin.structure(by(zs.Coloring("a*x")))
+    assert curved == standin.structure(by(zs.Coloring("gaussian-curvature", "earth", (0, 1))))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from zeroset.view.panels import coloring
 from zeroset.view.panels.context import Context
 from zeroset.view.state import State
 from zeroset.view.widgets import color, slider
@@ -13,7 +14,8 @@ SHARES = (("ambient", 1.0), ("diffuse", 1.5), ("specular", 1.5))
 
 
 def draw(state: State, context: Context) -> State:
-    """Three colours and four numbers."""
+    """What the surface is coloured by, three colours and four numbers."""
+    state = coloring.draw(state, context)
     imgui, material = context.imgui, state.material
     changes: dict[str, Any] = {}
     for side in ("front", "back"):
