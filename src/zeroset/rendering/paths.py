@@ -40,6 +40,7 @@ from zeroset.rendering.view import pixel_ray
 from zeroset.shade.environment import cube_color
 from zeroset.shade.reflectance import Face, dot, face, normalised
 from zeroset.shade.tone import encode, pack
+from zeroset.solve.clipping import clipped
 from zeroset.solve.field import Field, Lowered, Ray
 from zeroset.solve.search import search
 from zeroset.solve.status import MISS
@@ -126,7 +127,8 @@ def _follow(
     start, weight = numbers[6], (numbers[7], numbers[8], numbers[9])
     lowered = Lowered(field, builder, offset=offset)
     problem = problem_on(builder, lowered, kind, ray, start, builder.uniform("farthest", F32), None)
-    answer = search(problem, automatic_system(field, problem.fmt), Striding())
+    ahead, _ = clipped(problem)
+    answer = search(ahead, automatic_system(field, problem.fmt), Striding())
     hit = answer.status.ne(MISS)
     zero = constant(0.0, F32)
     normal = if_(hit, lambda: facing_back(lowered, ray, answer), lambda: (zero, zero, zero))
