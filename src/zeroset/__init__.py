@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from zeroset.rendering.render import render
     from zeroset.scene.bounds import Ball, Box
     from zeroset.scene.camera import Camera
+    from zeroset.scene.environment import Environment
     from zeroset.scene.file import load, save
     from zeroset.scene.light import Light, Material
     from zeroset.scene.scene import Scene
@@ -45,6 +46,7 @@ __all__ = [
     "Ball",
     "Box",
     "Camera",
+    "Environment",
     "Hits",
     "Image",
     "Light",
@@ -71,6 +73,7 @@ _HOMES = {
     "Ball": "zeroset.scene.bounds",
     "Box": "zeroset.scene.bounds",
     "Camera": "zeroset.scene.camera",
+    "Environment": "zeroset.scene.environment",
     "Hits": "zeroset.rendering.cast",
     "Image": "zeroset.rendering.image",
     "Light": "zeroset.scene.light",

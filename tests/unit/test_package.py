@@ -32,7 +32,19 @@ def test_all_is_complete_and_sorted() -> None:
     assert len(set(zs.__all__)) == len(zs.__all__)
     promised = {
         *("surface", "Surface", "Ball", "Box", "gallery", "load", "save", "cast", "Hits", "render", "Image", "Scene"),
-        *("Camera", "Light", "Material", "methods", "errors", "ZerosetError", "MISS", "HIT", "UNRESOLVED", "show"),
+        *(
+            "Camera",
+            "Environment",
+            "Light",
+            "Material",
+            "methods",
+            "errors",
+            "ZerosetError",
+            "MISS",
+            "HIT",
+            "UNRESOLVED",
+            "show",
+        ),
         *("Mesh", "mesh", "animate"),
     }
     assert promised | {"__version__"} == set(zs.__all__)

@@ -57,6 +57,7 @@ class Environment:
         known = isinstance(strength, (int, float)) and not isinstance(strength, bool)
         if not (known and math.isfinite(strength) and 0 <= strength <= BRIGHTEST):
             raise ParameterError(f"an environment's strength must be a number from 0, not {strength!r}")
+        object.__setattr__(self, "strength", float(strength))
         if isinstance(self.source, tuple):
             if len(self.source) != 6:
                 cubemap.face_files(self.source)
