@@ -91,3 +91,84 @@ def test_a_line_that_is_spoilt_is_the_line_that_is_named(scene: zs.Scene, data: 
     with pytest.raises(SceneFileError) as caught:
         loads("\n".join(lines), "my.toml")
     assert caught.value.line == at
+
+
+TEXT = dumps(
+    zs.Scene(
+        zs.surface(
+            "sum(i, (x - c[i])^2) + a*y = 1", {"a": 1.0, "c": [1.0, 2.0]}, bounds=zs.Ball(3.0, (1, 2, 3)), name="n"
+        ),
+        zs.Camera(),
+        shadows=True,
+        environment=zs.Environment("sky", 2.0),
+    )
+)
+SIGNS = ["[", "]", "{", "}", '"', "'", "=", ",", ".", "\n", "#", "-", '"""', "{}", "[]", "[[1]]", "[" * 400]
+WORDS = ["[[lights]]\n", "[lights]\n", "1e999", "nan", "true", "0x", '"sky"', "1979-05-27", "07:32:00", "9" * 5000]
+PIECES = st.one_of(st.sampled_from(SIGNS + WORDS), st.text(max_size=3))
+
+
+def end_of(text: str) -> zs.Scene | SceneFileError:
+    """What reading a text ends in; nothing else may come of it."""
+    try:
+        return loads(text, "my.toml")
+    except SceneFileError as error:
+        return error
+
+
+@settings(FEW, max_examples=600)
+@given(st.lists(st.tuples(st.integers(0, len(TEXT)), st.integers(0, 12), PIECES), min_size=1, max_size=3))
+def test_whatever_is_done_to_a_scene_file_ends_in_a_scene_or_in_words(changes: list[tuple[int, int, str]]) -> None:
+    text = TEXT
+    for at, cut, piece in changes:
+        text = text[:at] + piece + text[at + cut :]
+    ended = end_of(text)
+    if isinstance(ended, SceneFileError):
+        assert ended.line is None or 1 <= ended.line <= text.count("\n") + 1
+    else:
+        assert loads(dumps(ended)) == ended
+
+
+@settings(FEW, max_examples=300)
+@given(
+    st.sampled_from([line.partition(" = ")[0] for line in TEXT.splitlines() if " = " in line]),
+    st.sampled_from(
+        [
+            "3",
+            "-1",
+            "[]",
+            "{}",
+            '""',
+            '"sky"',
+            "[1, 2, 3]",
+            "[[1, 2, 3], [4, 5, 6]]",
+            "{a = 1}",
+            "nan",
+            "true",
+            "07:32:00",
+        ]
+    ),
+)
+def test_other_values_of_a_key_end_in_a_scene_or_in_words(key: str, value: str) -> None:
+    lines = TEXT.splitlines()
+    # Lists take several lines: all of them go.
+    first = next(i for i, line in enumerate(lines) if line.startswith(f"{key} = "))
+    last = next(i for i in range(first, len(lines)) if lines[i] == "]") if lines[first].endswith("[") else first
+    changed = "\n".join([*lines[:first], f"{key} = {value}", *lines[last + 1 :]])
+    ended = end_of(changed)
+    if isinstance(ended, SceneFileError):
+        # It is named itself, or a formula that lacks it, or what it stands in.
+        assert ended.line is not None
+        assert ended.line <= first + 1
+    else:
+        assert loads(dumps(ended)) == ended
+
+
+@pytest.mark.parametrize("opening", ["[", "{a = "])
+@pytest.mark.parametrize("key", ["bounds", "name", "params", "material", "camera", "lights", "environment", "shadows"])
+def test_nesting_of_any_depth_ends_in_words(key: str, opening: str) -> None:
+    closing = "]" if opening == "[" else "}"
+    for depth in range(2, 500, 31):
+        inside = "1" if opening == "{a = " else ""
+        with pytest.raises(SceneFileError):
+            loads(f'formula = "x"\n{key} = {opening * depth}{inside}{closing * depth}', "my.toml")

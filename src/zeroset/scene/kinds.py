@@ -16,6 +16,8 @@ LONGEST = 60
 """Characters of a value that an error shows."""
 TEXTS = ("formula", "name", "source", "environment")
 SWITCHES = ("shadows", "headlight")
+SINGLE = ("formula", "name", *SWITCHES)
+"""What even an empty list is not."""
 CORNERS = ("center", "min", "max")
 TRIPLES = ("background", "eye", "target", "up", "front", "back", "direction", "color", "position", *CORNERS)
 
@@ -53,8 +55,9 @@ def shown(value: Any) -> str:
 
 
 def _leaves(value: Any, path: Path) -> Iterator[tuple[Path, Any]]:
-    """Each value that is neither a table nor a list, with its path."""
-    if isinstance(value, (Mapping, list)):
+    """Each value that is neither a table nor a list, or must not be, with its path."""
+    single = path[-1:] and path[-1] in SINGLE and path[0] != "params"
+    if isinstance(value, (Mapping, list)) and not single:
         for key, part in value.items() if isinstance(value, Mapping) else enumerate(value):
             yield from _leaves(part, (*path, key))
     else:

@@ -6,6 +6,7 @@ A path is what leads to a value: ``("lights", 1, "color")`` is the colour of the
 
 from __future__ import annotations
 
+import contextlib
 import re
 import tomllib
 from bisect import bisect_left
@@ -59,7 +60,9 @@ class Lines:
         self._found: dict[Path, int] = {}
         self._elements: dict[Path, int] = {}
         self._at = 0
-        self._read()
+        # What is nested more deeply than can be followed stands inside of something whose line is known.
+        with contextlib.suppress(RecursionError):
+            self._read()
 
     def of(self, path: Path) -> int | None:
         """The line of a value, from 1; of what it stands in where there is none; None where that is the whole text."""

@@ -106,6 +106,12 @@ def test_what_is_not_there_is_where_it_would_stand() -> None:
     assert lines.of(()) is None
 
 
+def test_deep_nesting_has_the_line_that_it_begins_on() -> None:
+    lines = Lines("a = 1\nb = " + "[" * 5000 + "]" * 5000 + "\nc = 3")
+    assert lines.of(("b", *[0] * 5000)) == 2
+    assert lines.of(("a",)) == 1
+
+
 def test_an_empty_text_has_no_lines() -> None:
     assert Lines("").of(("a",)) is None
     assert Lines("# nothing\n\n").of(("a",)) is None
