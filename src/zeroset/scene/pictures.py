@@ -59,6 +59,14 @@ def read_picture(path: str) -> Floats:
         raise _unreadable(path, error) from None
 
 
+def picture_bytes(path: str) -> bytes:
+    """The whole of a picture file as it is; raises ``ParameterError`` where it cannot be read."""
+    try:
+        return Path(path).read_bytes()
+    except (OSError, ValueError) as error:
+        raise _unreadable(path, error) from None
+
+
 def _is_radiance(path: str) -> bool:
     return path.lower().endswith(".hdr")
 
