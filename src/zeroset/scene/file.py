@@ -7,7 +7,7 @@ Every key is optional but ``formula``:
     bounds = 3.0                                    # or {center, radius}, or {min, max}
     background = [1.0, 1.0, 1.0]
     shadows = true
-    environment = "sky"                             # or "room", or a picture's file name
+    environment = "sky"                             # or "room", or pictures, named from this file's folder
     params = {a = 5.0}
     camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
     material = {front = [0.9, 0.5, 0.1], shininess = 40}
@@ -20,18 +20,21 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import re
-import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
+from zeroset.scene.blame import blamed, blamed_bounds, blamed_params, in_toml
 from zeroset.scene.bounds import Ball, Bounds, parse_bounds
 from zeroset.scene.camera import Camera
 from zeroset.scene.coloring import Coloring, formula_of
 from zeroset.scene.environment import Environment, as_environment
+from zeroset.scene.kinds import shown, wrong_kind
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
+from zeroset.scene.lines import Lines, read_toml
+from zeroset.scene.lines import Path as KeyPath
+from zeroset.scene.places import for_folder, from_folder
 from zeroset.scene.scene import MOST_LIGHTS, Scene, as_scene
 from zeroset.scene.surface import Surface, surface
 
@@ -64,12 +67,16 @@ def load(path: str | os.PathLike[str]) -> Scene:
     _check_suffix(source)
     try:
         if source.stat().st_size > LARGEST:
-            raise SceneFileError(f"the scene file is larger than {LARGEST} bytes", path=path)
+            raise SceneFileError(
+                f"the scene file is larger than {LARGEST:,} bytes", path=path, hint="is this the file that was meant?"
+            )
         text = source.read_text(encoding="utf-8")
     except OSError as error:
         raise SceneFileError(f"cannot read the scene file: {error.strerror or error}", path=path) from None
     except UnicodeDecodeError:
-        raise SceneFileError("the scene file is not text in UTF-8", path=path) from None
+        raise SceneFileError("the scene file is not text in UTF-8", path=path, hint="save it as UTF-8") from None
+    except ValueError as error:
+        raise SceneFileError(f"cannot read the scene file: {error}", path=path) from None
     return loads(text, path)
 
 
@@ -79,16 +86,16 @@ def _check_suffix(path: Path) -> None:
 
 
 def loads(text: str, path: str | os.PathLike[str] = "scene.toml") -> Scene:
-    """A scene from the text of a scene file; ``path`` is what errors call it."""
-    try:
-        data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        found = re.search(r"line (\d+)", str(error))
-        line = int(found[1]) if found else None
-        if "end of document" in str(error):
-            line = max(1, len(text.splitlines()))
-        raise SceneFileError(f"this is no TOML: {error}", path=path, line=line) from None
-    return _Reader(text, path).scene(data)
+    """A scene from the text of a scene file.
+
+    Args:
+        text: TOML.
+        path: what errors call it; pictures are named from the folder of this file.
+
+    Raises:
+        SceneFileError: it is no scene; the message names the line.
+    """
+    return _Reader(text, path).scene(read_toml(text, path))
 
 
 class _Reader:
@@ -96,21 +103,25 @@ class _Reader:
         self._text = text
         self._path = path
 
-    def _line(self, key: str) -> int | None:
-        """The first line that mentions a key; TOML's reader does not tell where values stood."""
-        pattern = re.compile(rf"(^|[\s{{,\[.]){re.escape(key)}\s*[=\]]")
-        return next((i for i, line in enumerate(self._text.splitlines(), 1) if pattern.search(line)), None)
+    def fail(self, message: str, place: str | KeyPath, hints: tuple[str, ...] = ()) -> SceneFileError:
+        path: KeyPath = (place,) if isinstance(place, str) else place
+        return SceneFileError(message, path=self._path, line=Lines(self._text).of(path), hints=hints)
 
-    def fail(self, message: str, key: str, hints: tuple[str, ...] = ()) -> SceneFileError:
-        return SceneFileError(message, path=self._path, line=self._line(key), hints=hints)
-
-    def known(self, data: Any, keys: tuple[str, ...], where: str) -> Mapping[str, Any]:
+    def known(self, data: Any, keys: tuple[str, ...], where: str, path: KeyPath = ()) -> Mapping[str, Any]:
         if not isinstance(data, Mapping):
-            raise self.fail(f"{where} must be a table, not {data!r}", where)
+            raise self.fail(f"{where} must be a table, not {shown(data)}", path)
         for key in data:
             if key not in keys:
-                raise self.fail(f"{where} has no {key!r}", key, (*did_you_mean(key, keys), f"it has {', '.join(keys)}"))
+                hints = (*did_you_mean(key, keys), f"it has {', '.join(keys)}")
+                raise self.fail(f"{where} has no {key!r}", (*path, key), hints)
         return data
+
+    def kinds(self, value: Any, path: KeyPath) -> Any:
+        """The value, if all in it is of the kind that is meant there."""
+        wrong = wrong_kind(value, path)
+        if wrong is not None:
+            raise self.fail(wrong[1], wrong[0])
+        return value
 
     def scene(self, data: dict[str, Any]) -> Scene:
         self.known(data, KEYS, "a scene")
@@ -120,19 +131,22 @@ class _Reader:
         if lights is not None and not isinstance(lights, list):
             raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
         params = self._table(data, "params")
-        with _placing(self, "formula"):
-            shape = surface(data["formula"], params, name=str(data.get("name", "")))
-        with _placing(self, "bounds"):
-            shape = dataclasses.replace(shape, bounds=parse_bounds(data.get("bounds")))
-        camera = None if "camera" not in data else self.build(Camera, data["camera"], "camera")
+        name = self.kinds(data.get("name", ""), ("name",))
+        with _placing(self, lambda error: blamed_params(params, error)):
+            shape = surface(data["formula"], params, name=name)
+        limits = self.kinds(data["bounds"], ("bounds",)) if "bounds" in data else None
+        with _placing(self, lambda error: ("bounds", *blamed_bounds(limits))):
+            shape = dataclasses.replace(shape, bounds=parse_bounds(limits))
+        camera = None if "camera" not in data else self.build(Camera, data["camera"], "the camera", ("camera",))
         material = self._material(data.get("material", {}), shape)
-        around = data.get("environment")
-        if isinstance(around, Mapping):
-            around = self.build(Environment, around, "environment")
-        with _placing(self, "environment"):
-            around = as_environment(around)
-        lit = DEFAULT_LIGHTS if lights is None else tuple(self.build(Light, light, "lights") for light in lights)
-        with _placing(self, "lights" if len(lit) > MOST_LIGHTS else "background"):
+        around = self._environment(data.get("environment"))
+        for key in {"background", "shadows"} & set(data):
+            self.kinds(data[key], (key,))
+        lit = DEFAULT_LIGHTS
+        if lights is not None:
+            lit = tuple(self.build(Light, light, "a light", ("lights", i)) for i, light in enumerate(lights))
+        place = ("lights", MOST_LIGHTS) if len(lit) > MOST_LIGHTS else ("background",)
+        with _placing(self, lambda error: place):
             return Scene(
                 shape,
                 camera,
@@ -143,56 +157,75 @@ class _Reader:
                 around,
             )
 
-    def _material(self, data: Any, shape: Surface) -> Any:
-        if isinstance(data, Mapping) and isinstance(data.get("coloring"), Mapping):
-            data = {**data, "coloring": self.build(Coloring, data["coloring"], "coloring")}
-        material = self.build(Material, data, "material")
+    def _material(self, data: Any, shape: Surface) -> Material:
+        written = data.get("coloring") if isinstance(data, Mapping) else None
+        if isinstance(written, Mapping):
+            coloring = self.build(Coloring, written, "the coloring", ("material", "coloring"))
+            rest = {key: value for key, value in data.items() if key != "coloring"}
+            material = dataclasses.replace(self._material(rest, shape), coloring=coloring)
+        else:
+            material = self.build(Material, data, "the material", ("material",))
         if material.coloring is not None:
-            with _placing(self, "by" if isinstance(data["coloring"], Coloring) else "coloring"):
-                formula_of(material.coloring, shape)
+            known: Coloring = material.coloring
+            with _placing(
+                self, lambda error: ("material", "coloring", *(("by",) if isinstance(written, Mapping) else ()))
+            ):
+                formula_of(known, shape)
         return material
 
     def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
         value = data.get(key, {})
         if not isinstance(value, Mapping):
             raise self.fail(f"{key} must be a table of names and values", key)
-        return value
+        kept: Mapping[str, Any] = self.kinds(value, (key,))
+        return kept
 
-    def build(self, cls: type[Any], data: Any, where: str) -> Any:
+    def _environment(self, data: Any) -> Environment | None:
+        """The surroundings, their pictures named from the file's folder; they are there, and fit."""
+        if data is None:
+            return None
+        if isinstance(data, Mapping):
+            self.known(data, ("source", "strength"), "the environment", ("environment",))
+            if "source" not in data:
+                raise self.fail("the environment needs a source", "environment", ('source = "sky"',))
+            around = self.build(Environment, data, "the environment", ("environment",))
+        else:
+            with _placing(self, lambda error: ("environment",)):
+                around = as_environment(self.kinds(data, ("environment",)))
+        with _placing(self, lambda error: ("environment", "source")):
+            around = from_folder(around, os.path.dirname(self._path))
+            around.check()
+        return around
+
+    def build(self, cls: type[Any], data: Any, where: str, path: KeyPath) -> Any:
         fields = tuple(f.name for f in dataclasses.fields(cls))
-        values = {k: tuple(v) if isinstance(v, list) else v for k, v in self.known(data, fields, where).items()}
+        known = self.kinds(self.known(data, fields, where, path), path)
+        values = {k: tuple(v) if isinstance(v, list) else v for k, v in known.items()}
+        if "fov" in values and "height" in values:
+            raise self.fail(
+                "the camera has both a fov and a height", (*path, "height"), ("height alone is without perspective",)
+            )
         try:
             return cls(**values)
         except ZerosetError as error:
-            raise self.fail(str(error), next(filter(_refused(cls, values), values), where)) from None
-
-
-def _refused(cls: type[Any], values: Mapping[str, Any]) -> Callable[[str], bool]:
-    """Says which one of several values is not taken even by itself: the one to blame."""
-
-    def refuses(key: str) -> bool:
-        try:
-            cls(**{key: values[key]})
-        except ZerosetError:
-            return True
-        return False
-
-    return refuses
+            hints = tuple(map(in_toml, error.hints))
+            raise self.fail(error.message, (*path, *blamed(cls, values)), hints) from None
 
 
 class _placing:  # noqa: N801 - reads as a statement
     """Errors of what a file says get the file and the line."""
 
-    def __init__(self, reader: _Reader, key: str) -> None:
+    def __init__(self, reader: _Reader, place: Callable[[ZerosetError], KeyPath]) -> None:
         self._reader = reader
-        self._key = key
+        self._place = place
 
     def __enter__(self) -> None:
         return None
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: Any) -> None:
         if isinstance(error, ZerosetError) and not (isinstance(error, SceneFileError) and error.path is not None):
-            raise self._reader.fail(str(error), self._key) from None
+            said = "\n".join(filter(None, (error.message, error.place())))
+            raise self._reader.fail(said, self._place(error), tuple(map(in_toml, error.hints))) from None
 
 
 def dumps(scene: Scene | Surface) -> str:
@@ -239,6 +272,8 @@ def _bounds_data(bounds: Bounds) -> Any:
 def save(scene: Scene | Surface, path: str | os.PathLike[str]) -> Path:
     """Write a scene file, whole or not at all; gives its path.
 
+    Pictures of the surroundings stay where they are; the file names them from its own folder.
+
     Raises:
         SceneFileError: the file's name does not end in ``.toml``.
         OutputError: the file cannot be written.
@@ -254,7 +289,13 @@ def save(scene: Scene | Surface, path: str | os.PathLike[str]) -> Path:
 
     target = Path(path)
     _check_suffix(target)
-    data = dumps(scene).encode()
+    scene = as_scene(scene)
+    if scene.environment is not None:
+        scene = dataclasses.replace(scene, environment=for_folder(scene.environment, target.parent))
+    try:
+        data = dumps(scene).encode()
+    except UnicodeEncodeError:
+        raise SceneFileError("a name in the scene cannot be written in UTF-8", path=path, hint="rename it") from None
     with replacing(target) as file:
         file.write(data)
     return target
