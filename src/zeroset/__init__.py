@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from zeroset.scene.bounds import Ball, Box
     from zeroset.scene.camera import Camera
     from zeroset.scene.coloring import Coloring
+    from zeroset.scene.environment import Environment
     from zeroset.scene.file import load, save
     from zeroset.scene.light import Light, Material
     from zeroset.scene.scene import Scene
@@ -48,6 +49,7 @@ __all__ = [
     "Box",
     "Camera",
     "Coloring",
+    "Environment",
     "Hits",
     "Image",
     "Light",
@@ -76,6 +78,7 @@ _HOMES = {
     "Box": "zeroset.scene.bounds",
     "Camera": "zeroset.scene.camera",
     "Coloring": "zeroset.scene.coloring",
+    "Environment": "zeroset.scene.environment",
     "Hits": "zeroset.rendering.cast",
     "Image": "zeroset.rendering.image",
     "Light": "zeroset.scene.light",

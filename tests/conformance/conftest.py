@@ -17,7 +17,7 @@ from zeroset.kernel.passes import optimise
 from zeroset.runtime import Device
 from zeroset.runtime.cache import Cache
 from zeroset.runtime.cpu import CpuDevice, host
-from zeroset.runtime.gpu import GpuDevice
+from zeroset.runtime.gpu.device import GpuDevice
 
 Agree = Callable[..., dict[str, np.ndarray[Any, Any]]]
 

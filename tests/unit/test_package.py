@@ -35,6 +35,7 @@ def test_all_is_complete_and_sorted() -> None:
         *(
             "Camera",
             "Coloring",
+            "Environment",
             "Light",
             "Material",
             "methods",

@@ -5,8 +5,10 @@ from __future__ import annotations
 import logging
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+from PIL import Image
 
 PROGRAM = """
 import logging, sys, time
@@ -49,6 +51,10 @@ for changes in (
     {"camera": zs.Camera(eye=(0.0, 0.0, 5.0), height=3.0)},
     {"flying": True},
     {"lights": ()},
+    {"lights": (), "shadows": True, "antialias": 5},
+    {"material": zs.Material(opacity=0.5, ior=1.5, reflectance=0.5), "environment": zs.Environment("room")},
+    {"picture": zs.Environment(sys.argv[2])},
+    {"environment": zs.Environment(sys.argv[2]), "picture": zs.Environment(sys.argv[2])},
     {"lights": (zs.Light(headlight=False, color=(0.0, 0.0, 0.0)),)},
     {"tolerance": 1e-3},
     {"material": zs.Material(coloring="gaussian-curvature")},
@@ -70,8 +76,10 @@ shown.close(), session.close()
 
 @pytest.mark.parametrize("ratio", ["1", "2"])
 @pytest.mark.usefixtures("adapter")
-def test_every_panel_draws_itself_in_every_state(ratio: str) -> None:
-    done = subprocess.run([sys.executable, "-c", PROGRAM, ratio], capture_output=True, text=True, timeout=300)
+def test_every_panel_draws_itself_in_every_state(ratio: str, tmp_path: Path) -> None:
+    Image.new("RGB", (8, 4), (255, 0, 0)).save(tmp_path / "around.png")
+    command = [sys.executable, "-c", PROGRAM, ratio, str(tmp_path / "around.png")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip() == "panels drawn"
     # Errors while drawing are logged and not raised: nothing of the kind may be there.

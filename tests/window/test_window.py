@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,16 @@ PANE = (slice(0, 740), slice(int(SIDEBAR), SIZE[0]))
 """The picture on the screen, above the strip with its numbers."""
 BOX, SLIDER = (150, 40), (232, 160)
 """The formula box, and the handle of the first slider at half of its range's upper part."""
+GALLERY, COLOURS, LIGHT = (100, 198), (100, 326), (100, 294)
+"""Heads of panels: the gallery's as the window opens, the others' when it is closed."""
+SHADOWS, EDGES = (26, 525), (200, 557)
+"""In the panel of light, where that alone is open."""
+AROUND, MIRROR = (200, 455), (110, 615)
+"""In the panel of colours, where that alone is open; the mirror's slider is at 0."""
+ASIDE = (100, 101)
+"""A place where nothing happens."""
+ROW = 22
+"""Height of a row in a list."""
 MIDDLE = (int(SIDEBAR) + (SIZE[0] - int(SIDEBAR)) // 2, SIZE[1] // 2)
 
 
@@ -75,6 +86,50 @@ def test_a_person_uses_the_window(at_window: Callable[..., Any]) -> None:
     assert person.process.returncode == 0, err
     assert "Traceback" not in out + err
     assert person.events()[-1]["event"] == "closed"
+
+
+def test_a_person_turns_on_shadows_glass_and_surroundings(at_window: Callable[..., Any]) -> None:
+    person = at_window(FORMULA, "-p", "a=1", "-d", "cpu")
+    person.wait("picture")
+    window = person.window()
+    surface = zs.surface(FORMULA, {"a": 1.0})
+
+    def shown(material: zs.Material, around: str | None, **options: Any) -> None:
+        """The screen shows what render draws, once no hint hangs over it."""
+        person.do("mousemove", *ASIDE)
+        time.sleep(0.5)
+        scene = zs.Scene(surface, None, material, background=BACKGROUND, shadows=True, environment=around)
+        wanted = zs.render(scene, (SIZE[0] - int(SIDEBAR), SIZE[1]), device="cpu", **options).pixels[PANE[0]]
+        assert np.abs(person.screen()[PANE].astype(int) - wanted.astype(int)).max() <= 1
+
+    def click(place: tuple[int, int]) -> None:
+        person.do("mousemove", *place)
+        time.sleep(0.3)
+        person.do("click", 1)
+        time.sleep(0.5)
+
+    for header in (GALLERY, LIGHT):
+        click(header)
+    click(SHADOWS)
+    person.wait("picture")
+    shown(zs.Material(), None)
+    # The second of the list is 4 rays; pictures that move have one.
+    click(EDGES)
+    click((EDGES[0], EDGES[1] + 2 * ROW))
+    assert person.wait("picture")["antialias"] == 4
+    shown(zs.Material(), None, antialias=4)
+    for header in (LIGHT, COLOURS):
+        click(header)
+    # The second of the surroundings is the sky, and the slider's end a mirror.
+    click(AROUND)
+    click((AROUND[0], AROUND[1] + 2 * ROW))
+    person.wait("picture")
+    person.drag(MIRROR, (MIRROR[0] + 400, MIRROR[1]))
+    person.wait("picture")
+    shown(zs.Material(reflectance=1.0), "sky", antialias=4)
+    person.close(window)
+    out, err = person.process.communicate(timeout=60)
+    assert (person.process.returncode, "Traceback" in out + err) == (0, False), err
 
 
 def wanted_camera(surface: zs.Surface) -> zs.Camera:

@@ -8,7 +8,7 @@ from zeroset.runtime import Device, get_device
 from zeroset.runtime.cache import Cache
 
 if TYPE_CHECKING:
-    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.device import GpuDevice
 
 
 class Devices:
@@ -50,7 +50,7 @@ class Devices:
 
     def _gpu(self, cache: Cache) -> GpuDevice:
         """A device on the adapter that was found, whatever ``ZEROSET_GPU`` says by now."""
-        from zeroset.runtime.gpu import GpuDevice
+        from zeroset.runtime.gpu.device import GpuDevice
 
         found = self._known.found if isinstance(self._known, GpuDevice) else None
         return GpuDevice(found, cache)

@@ -12,7 +12,7 @@ from zeroset.bench.timing import FEWEST, MOST, Times
 from zeroset.kernel import U32
 
 if TYPE_CHECKING:
-    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.device import GpuDevice
 
 Action = Callable[[], object]
 ROUNDS = 3

@@ -23,7 +23,7 @@ from zeroset.runtime.cache import Cache
 from zeroset.scene.surface import Surface
 
 if TYPE_CHECKING:
-    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.device import GpuDevice
 
 
 FIRST = 512

@@ -12,7 +12,7 @@ from typing import Any
 
 from zeroset.kernel import Kernel, Type
 from zeroset.runtime import Device, Program
-from zeroset.runtime.device import Array
+from zeroset.runtime.device import Array, Counted
 
 
 class Meter:
@@ -51,14 +51,14 @@ class Meter:
         self._count()
         return self._timed(lambda: self._device.compile(kernel))
 
-    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> Program:
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> Program:
         """The program under a key; counted where its kernel had to be traced."""
 
         def counted() -> Kernel:
             self._count()
             return build()
 
-        return self._timed(lambda: self._device.compile_cached(key, counted))
+        return self._timed(lambda: self._device.compile_cached(key, counted, quick))
 
     def _count(self) -> None:
         with self._lock:
@@ -97,6 +97,10 @@ class Meter:
     def copy(self, buffer: Any) -> Any:
         """Another buffer with the same elements."""
         return self._device.copy(buffer)
+
+    def lanes(self, count: int | Counted) -> int | None:
+        """How many lanes a count is, where the wrapped device can tell."""
+        return self._device.lanes(count)
 
     def submit(self) -> None:
         """Let the wrapped device begin what it was asked for."""

@@ -114,7 +114,7 @@ def _opened() -> str:
     """How the GPU calculates, or why it cannot be used."""
     from zeroset.errors import DeviceError
     from zeroset.runtime import get_device
-    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.device import GpuDevice
 
     try:
         device = get_device("gpu")

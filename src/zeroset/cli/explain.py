@@ -16,7 +16,7 @@ from zeroset.scene.surface import Surface
 if TYPE_CHECKING:
     from zeroset.expr import Expr
     from zeroset.kernel import Kernel
-    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.device import GpuDevice
     from zeroset.scene.scene import Scene
     from zeroset.scene.several import Drawable
     from zeroset.solve import Method
@@ -227,8 +227,8 @@ def _shader(kernel: Kernel, device: str) -> Iterator[str]:
 def _gpu(device: str) -> GpuDevice | None:
     """The GPU, where one was asked for by name or may well be there."""
     from zeroset.runtime import get_device
-    from zeroset.runtime.gpu import GpuDevice
     from zeroset.runtime.gpu.adapter import likely
+    from zeroset.runtime.gpu.device import GpuDevice
 
     if device != "gpu" and not likely():
         return None

@@ -19,7 +19,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 MATERIAL = ("opacity", "reflectance", "ior")
 OPTIONS = (
     click.option("--shadows", is_flag=True, help="Lights throw shadows."),
-    click.option("--environment", metavar="sky|room|FILE", help="What is seen all around."),
+    click.option("--environment", metavar="sky|room|FILE", help="What is seen all around. Six FILEs: sky_{face}.png"),
     click.option("--opacity", type=float, help="1 for solid; below, what lies behind is seen through it."),
     click.option("--reflectance", type=float, help="Share of the light that is mirrored, 0 to 1."),
     click.option("--ior", type=float, help="Index of refraction of the inside; with an opacity below 1."),

@@ -37,6 +37,8 @@ Progress = Callable[[float], None]
 
 SLICES = 50
 """Parts that a frame is drawn in where somebody watches its progress."""
+SMALL = 1 << 19
+"""Pixels of a picture that is drawn sooner than its kernels are compiled."""
 MOST_AT_ONCE = 1 << 20
 """Rays handed over at once: systems end the work of a GPU that takes seconds over it."""
 
@@ -138,7 +140,7 @@ class Frame:
 
     def compile(self, draft: bool) -> None:
         """Begin to compile what is not there yet, or what of it a draft needs."""
-        self._tracer.compile(draft)
+        self._tracer.compile(draft, self.layout.lanes <= SMALL)
 
     def draw(
         self,

@@ -42,7 +42,9 @@ from zeroset.rendering.view import pixel_ray
 from zeroset.shade.environment import cube_color
 from zeroset.shade.reflectance import Face, dot, face, normalised
 from zeroset.shade.tone import encode, pack
+from zeroset.solve.clipping import clipped
 from zeroset.solve.field import Ray
+from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS
 from zeroset.solve.subject import Subject
@@ -127,7 +129,11 @@ def _follow(
     start, weight = numbers[6], (numbers[7], numbers[8], numbers[9])
     subject = Subject(shape, builder, offset=offset)
     farthest = builder.uniform("farthest", F32)
-    answer = subject.nearest(lambda body: problem_on(body, ray, start, farthest, None), stride)
+
+    def ahead(problem: Problem) -> Answer:
+        return stride(clipped(problem)[0])
+
+    answer = subject.nearest(lambda body: problem_on(body, ray, start, farthest, None), ahead)
     hit = answer.status.ne(MISS)
     zero = constant(0.0, F32)
     nothing = (zero, zero, zero, *([] if shape.parts == 1 else [constant(0, U32)]))

@@ -1,13 +1,11 @@
 """Tracing as a plan of passes: beams, first look, second look, thin parts; for a frame's pixels and a caller's rays.
 
-Each pass is a kernel over named buffers. The later ones run on lists that the earlier ones make, mostly short. All are
-compiled side by side while the first are already running.
+Each pass is a kernel over named buffers. The later ones run on lists that the earlier ones make, mostly short.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -17,6 +15,7 @@ from zeroset.kernel.types import F32, F64, U32
 from zeroset.rendering.buffers import BLOCK, COUNTERS, END, FROM, LIT, NOTHING, ONWARD, SECOND, THIN, fields
 from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.layout import TILE
+from zeroset.rendering.making import Making
 from zeroset.rendering.values import Arrays
 from zeroset.runtime import Counted, Device, Program
 from zeroset.scene.several import Drawable
@@ -27,7 +26,11 @@ Buffers = Mapping[str, Any]
 DRAFT = ("beams", "first", "shadow")
 """The passes of a draft, which leaves out second looks and thin parts."""
 ORDER = (*DRAFT, "thin", "second")
-"""Passes in the order in which their programs are made: the second look, which a picture often needs not, at last."""
+"""Passes in the order in which their programs are made."""
+SHORT = ("thin", "second")
+"""Passes that take little of a small picture's time; their programs are made in a hurry for the first one."""
+AT_ONCE = 5
+"""Programs that are made side by side: compilers are to be kept at work while other kernels are being traced."""
 
 
 class Tracer:
@@ -69,11 +72,11 @@ class Tracer:
         shape = as_drawn(surface).shape
         self._parts = shape.parts
         self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {ends}"
-        self._builders = self._kernels(shape, pixels)
-        self._shared: dict[str, Callable[[], Kernel]] = {}
-        self._programs: dict[str, Program] = {}
-        self._coming: dict[str, Future[Program]] = {}
-        self._begun: set[str] = set()
+        self._shared: list[str] = []
+        self._making = Making(device)
+        self._drawn = False
+        for name, build in self._kernels(shape, pixels).items():
+            self._making.add(name, f"{name} {self._key}", build)
 
     def _kernels(self, shape: Shape, pixels: bool) -> dict[str, Callable[[], Kernel]]:
         method = self._method
@@ -124,51 +127,38 @@ class Tracer:
 
     def kernel(self, name: str) -> Kernel:
         """The kernel of one pass as it is traced, for those who want to look at it."""
-        return self._builders[name]()
+        return self._making.kernel(name)
 
     def program(self, name: str) -> Program:
         """The program of one pass: compiled by now, being compiled, or compiled here."""
-        waiting = self._coming.pop(name, None)
-        if waiting is not None:
-            self._programs[name] = waiting.result()
-        known = self._programs.get(name)
-        if known is None:
-            known = self._programs[name] = self._compiled(name)
-        return known
-
-    def _compiled(self, name: str) -> Program:
-        if name in self._shared:
-            return self._device.compile_cached(name, self._shared[name])
-        return self._device.compile_cached(f"{name} {self._key}", self._builders[name])
+        return self._making.get(name)
 
     def add(self, name: str, build: Callable[[], Kernel]) -> None:
         """Have another program made along with the passes' own, under its name alone: every structure shares it."""
-        self._shared[name] = build
+        self._shared.append(name)
+        self._making.add(name, name, build)
 
-    def compile(self, draft: bool = False) -> None:
+    def compile(self, draft: bool, hurry: bool) -> None:
         """Begin to compile what is not there yet; ``program`` waits for the one that it is asked for.
-
-        Two at a time: while LLVM works on one kernel, outside Python's lock, the next one is traced.
 
         Args:
             draft: only what a draft needs.
+            hurry: whether a first picture is so small that compiling for it takes longer than drawing it.
         """
-        passes = [name for name in (DRAFT if draft else ORDER) if name in self._builders]
+        passes = [name for name in (DRAFT if draft else ORDER) if name in self._making]
         wanted = [*passes[:-1], *self._shared, *passes[-1:]]
-        missing = [name for name in wanted if name not in self._begun]
-        if not missing:
-            return
-        # A draft on a GPU: the driver compiles the first shader while the second is traced, one tracing at a time.
-        pool = ThreadPoolExecutor(1 if draft and self._device.name == "gpu" else 2)
-        for name in missing:
-            self._begun.add(name)
-            self._coming[name] = pool.submit(self._compiled, name)
-        pool.shutdown(wait=False)
+        if self._device.name == "gpu":
+            # A draft: the driver compiles the first shader while the second is traced, one tracing at a time.
+            self._making.begin(wanted, 1 if draft else 2)
+        elif self._drawn:
+            self._making.begin(wanted, AT_ONCE)
+            self._making.improve()
+        else:
+            self._making.begin(wanted, AT_ONCE, (*SHORT, *self._shared) if hurry else ())
 
     def settle(self) -> None:
-        """Wait until all that ``compile`` began is there."""
-        for name in tuple(self._coming):
-            self.program(name)
+        """Wait until everything that was begun is there, and as good as it gets."""
+        self._making.settle()
 
     def outputs(self, rays: int) -> dict[str, Any]:
         """Fresh buffers for what is found along so many rays."""
@@ -193,13 +183,13 @@ class Tracer:
 
     def begin(self, drawn: Drawn, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
         """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters."""
+        self._drawn = True
         bound = {**buffers, **drawn.bind(self._arrays)} if drawn.arrays else buffers
         self._device.clear(buffers[COUNTERS])
         if self.beams:
             self._device.clear(buffers["block_missed"])
             self.program("beams").run(tiles, uniforms, bound)
-            coming = self._coming.get("first")
-            if coming is not None and not coming.done():
+            if self._making.pending("first"):
                 # A driver that compiles when a shader first runs may do so while the next one is being written.
                 self._device.submit()
         return bound
@@ -226,7 +216,7 @@ class Tracer:
 
     def second_look(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers) -> None:
         """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so."""
-        if not self._second:
+        if not self._second or self._device.lanes(Counted(bound[COUNTERS], 0)) == 0:
             return
         exact = {**uniforms, **drawn.parameters(self._method, F64)}
         arrays = drawn.bind(self._arrays, F64) if drawn.arrays else {}

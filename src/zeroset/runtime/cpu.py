@@ -53,7 +53,7 @@ class CpuDevice(HostMemory):
         self.cache = default_cache() if cache is None else cache
         machine = target.identity if target else cpu_stamp() or self.target.identity
         stamp = f"{machine}|{source_stamp()}|{llvm_stamp()}"
-        self._programs = Programs(self.cache, stamp, self._translate, self._place)
+        self._programs = Programs(self.cache, stamp, self._write, self._translate, self._place)
 
     @property
     def target(self) -> Target:
@@ -71,15 +71,20 @@ class CpuDevice(HostMemory):
         """The program of a kernel; see ``Device.compile``."""
         return self._programs.of(kernel)
 
-    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> CpuProgram:
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> CpuProgram:
         """The program under a key; see ``Device.compile_cached``."""
-        return self._programs.under(key, build)
+        return self._programs.under(key, build, quick)
 
-    def _translate(self, kernel: Kernel) -> Compiled:
+    def _write(self, kernel: Kernel) -> str:
         from zeroset.codegen import llvm
         from zeroset.kernel.passes import optimise
 
-        code = llvm.to_object(llvm.to_llvm(optimise(kernel), self.target), self.target)
+        return llvm.to_llvm(optimise(kernel), self.target)
+
+    def _translate(self, kernel: Kernel, text: str, quick: bool) -> Compiled:
+        from zeroset.codegen import llvm
+
+        code = llvm.to_object(text, self.target, 0 if quick else None)
         flat = image.link(code, _ENTRY) if image.can_place() else None
         kind, data = ("object", code) if flat is None else ("image", flat)
         return Compiled(Signature.of(kernel), self.target.width, kind, data)

@@ -111,12 +111,13 @@ class Device(Protocol):
         """The program of a kernel; the same kernel again costs nothing."""
         ...
 
-    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> Program:
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> Program:
         """The program that an earlier call, perhaps of an earlier process, made under this key.
 
         Args:
             key: names everything that ``build`` depends on, versions of zeroset excepted.
             build: traces the kernel; called only where no program is known under the key.
+            quick: that it is there soon counts more than that it runs fast; the results are the same.
         """
         ...
 
@@ -147,6 +148,10 @@ class Device(Protocol):
 
     def read(self, buffer: Any) -> Array:
         """The elements of a buffer, when all that was asked of the device before has been done."""
+        ...
+
+    def lanes(self, count: int | Counted) -> int | None:
+        """How many lanes a count is, where that can be told without waiting; None where it cannot."""
         ...
 
     def submit(self) -> None:
@@ -185,6 +190,10 @@ class HostMemory:
     def read(self, buffer: Array) -> Array:
         """The array itself."""
         return buffer
+
+    def lanes(self, count: int | Counted) -> int:
+        """How many lanes a count is."""
+        return lanes_of(count)
 
     def submit(self) -> None:
         """Nothing: what was asked for is done."""

@@ -42,7 +42,7 @@ class InterpreterDevice(HostMemory):
         """The program of a kernel; see ``Device.compile``."""
         return InterpreterProgram(verify(kernel))
 
-    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> InterpreterProgram:
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> InterpreterProgram:
         """The program under a key; see ``Device.compile_cached``."""
         if key not in self._programs:
             self._programs[key] = self.compile(build())

@@ -1,20 +1,25 @@
 """The programs that a device has made: in memory, on disk, or to be made; the same for every device that compiles.
 
-Nothing is held while kernels are traced and compiled: several may be under way at once, and where two threads make the
-same program the first one stays.
+Several may be under way at once. Kernels are traced and written one at a time, for Python does one thing at a time
+anyway: so the first is with its compiler while the second is being traced, instead of all being half done. Where two
+threads make the same program the first one stays.
+
+A program may be asked for in a hurry: what it costs to compile then counts more than how fast it runs. Whoever asks so
+is given the good one where it is there already; the quick one is kept under a name of its own.
 """
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from zeroset.kernel.build import Kernel
 from zeroset.runtime.cache import Cache
 from zeroset.runtime.compiled import Compiled
 
 P = TypeVar("P")
+_QUICK = " quick"
 _IN_MEMORY = 256
 """Programs that a device remembers; older ones live as long as somebody holds them."""
 
@@ -25,41 +30,61 @@ class Programs(Generic[P]):
     Args:
         cache: the disk.
         stamp: what compiled code depends on besides its kernel.
-        translate: makes code of a kernel.
+        write: makes the text of a kernel that the target's compiler takes.
+        translate: makes code of a kernel's text, in a hurry or not.
         place: makes a program of code.
     """
 
     def __init__(
-        self, cache: Cache, stamp: str, translate: Callable[[Kernel], Compiled], place: Callable[[Compiled], P]
+        self,
+        cache: Cache,
+        stamp: str,
+        write: Callable[[Kernel], Any],
+        translate: Callable[[Kernel, Any, bool], Compiled],
+        place: Callable[[Compiled], P],
     ) -> None:
         self._cache = cache
         self._stamp = stamp
+        self._write = write
         self._translate = translate
         self._place = place
         self._made: dict[str, P] = {}
         self._busy = threading.Lock()
+        # A semaphore lets in who came first; a lock lets in anybody.
+        self._writing = threading.Semaphore()
 
     def of(self, kernel: Kernel) -> P:
         """The program of a kernel."""
-        known = self._known(kernel.digest) or self._recall(kernel.digest)
-        if known is None:
-            compiled = self._translate(kernel)
-            self._cache.put(f"{kernel.digest}|{self._stamp}", compiled)
-            known = self._place(compiled)
-        return self._remember(kernel.digest, known)
+        return self._of(lambda: kernel, "")[0]
 
-    def under(self, key: str, build: Callable[[], Kernel]) -> P:
+    def under(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> P:
         """The program under a key; ``build`` traces its kernel where no program is known there."""
-        name = f"key {key}"
-        known = self._known(name)
-        if known is None:
-            digest = self._cache.follow(f"{name}|{self._stamp}")
-            known = None if digest is None else self._known(digest) or self._recall(digest)
-        if known is None:
-            kernel = build()
-            known = self.of(kernel)
-            self._cache.link(f"{name}|{self._stamp}", kernel.digest)
+        variants = ("", _QUICK) if quick else ("",)
+        for variant in variants:
+            name = f"key {key}{variant}"
+            known = self._known(name) or self._follow(name, variant)
+            if known is not None:
+                return self._remember(name, known)
+        known, digest = self._of(build, variant)
+        self._cache.link(f"{name}|{self._stamp}", digest)
         return self._remember(name, known)
+
+    def _follow(self, name: str, variant: str) -> P | None:
+        digest = self._cache.follow(f"{name}|{self._stamp}")
+        return None if digest is None else self._recall(digest + variant)
+
+    def _of(self, build: Callable[[], Kernel], variant: str) -> tuple[P, str]:
+        """The program of the kernel that ``build`` traces, and the kernel's digest."""
+        with self._writing:
+            kernel = build()
+            name = kernel.digest + variant
+            known = self._recall(name)
+            text = None if known is not None else self._write(kernel)
+        if known is None:
+            compiled = self._translate(kernel, text, variant == _QUICK)
+            self._cache.put(f"{name}|{self._stamp}", compiled)
+            known = self._place(compiled)
+        return self._remember(name, known), kernel.digest
 
     def _known(self, name: str) -> P | None:
         with self._busy:
@@ -73,6 +98,10 @@ class Programs(Generic[P]):
                 del self._made[next(iter(self._made))]
         return program
 
-    def _recall(self, digest: str) -> P | None:
-        compiled = self._cache.get(f"{digest}|{self._stamp}")
+    def _recall(self, name: str) -> P | None:
+        """A program by its kernel's digest, from memory or from disk."""
+        known = self._known(name)
+        if known is not None:
+            return known
+        compiled = self._cache.get(f"{name}|{self._stamp}")
         return None if compiled is None else self._place(compiled)

@@ -24,7 +24,7 @@ def _interp() -> Device:
 
 
 def _gpu() -> Device:
-    from zeroset.runtime.gpu import GpuDevice
+    from zeroset.runtime.gpu.device import GpuDevice
 
     return GpuDevice()
 

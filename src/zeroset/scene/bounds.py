@@ -127,7 +127,7 @@ def parse_bounds(value: Any) -> Bounds | None:
             return Ball(value["radius"], value.get("center", (0.0, 0.0, 0.0)))
         given = ", ".join(sorted(map(str, keys))) or "nothing"
         raise BoundsError(f"bounds have either min and max, or center and radius, not {given}")
-    if isinstance(value, (Sequence, np.ndarray)) and not isinstance(value, str) and np.ndim(value) > 0:
+    if (isinstance(value, Sequence) and not isinstance(value, str)) or (isinstance(value, np.ndarray) and value.ndim):
         if len(value) != 2:
             raise BoundsError(f"bounds as a sequence are two corners, not {len(value)} items", hint="try bounds=3.0")
         return Box(value[0], value[1])

@@ -1,8 +1,10 @@
-"""What surrounds a scene: a sky and a room that need no file, or a picture all around.
+"""What surrounds a scene: a sky and a room that need no file, or pictures all around.
 
-All become one thing, a cube map: six square faces (+x -x +y -y +z -z, z upwards) of linear RGB, seen from the inside. A
-picture is equirectangular, twice as wide as high, its middle towards +x and its top upwards, in a format that Pillow
-reads, or ``.hdr`` (Radiance) for light beyond white.
+All become one thing, a cube map: six square faces (+x -x +y -y +z -z, z upwards) of linear RGB, seen from the inside.
+Pictures are read in any format that Pillow knows, or as ``.hdr`` (Radiance) for light beyond white, and they are
+
+- equirectangular: twice as wide as high, the middle towards +x, the left quarter towards +y, the top upwards;
+- or a cube map, in six files or in one (a cross or a strip): right is +x, front is +y, top is +z (``cubemap``).
 """
 
 from __future__ import annotations
@@ -18,12 +20,16 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.errors import ParameterError, did_you_mean
+from zeroset.scene import cubemap
+from zeroset.scene.light import BRIGHTEST
+from zeroset.scene.pictures import picture_size, read_picture
 
 Floats = npt.NDArray[np.float64]
 SIDE = 256
 """Texels along a face of the built-in surroundings."""
 LARGEST_SIDE = 1024
 BUILT_IN = ("sky", "room")
+SHAPES = "it is twice as wide as high, or six faces as a cross (4:3 or 3:4) or a strip (6:1 or 1:6)"
 
 
 @dataclass(frozen=True)
@@ -31,7 +37,10 @@ class Environment:
     """The surroundings of a scene.
 
     Attributes:
-        source: ``"sky"``, ``"room"``, or the path of an equirectangular picture.
+        source: ``"sky"``, ``"room"``, or pictures: the path of an equirectangular picture or of a cube map in one
+            picture (a cross or a strip, told by its shape); a path with ``{face}`` in it, which stands for right,
+            left, top, bottom, front and back (or posx, negx ... or px, nx ...); or six paths, in that order or named
+            so. Right is +x, front is +y, top is +z.
         strength: factor of its light.
 
     Example:
@@ -39,14 +48,20 @@ class Environment:
         (1179648,)
     """
 
-    source: str
+    source: str | tuple[str, ...]
     strength: float = 1.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "source", os.fspath(self.source))
-        if not (isinstance(self.strength, (int, float)) and math.isfinite(self.strength) and self.strength >= 0):
-            raise ParameterError(f"an environment's strength must be a number from 0, not {self.strength!r}")
-        if self.source not in BUILT_IN and not Path(self.source).suffix:
+        object.__setattr__(self, "source", _as_source(self.source))
+        strength = self.strength
+        known = isinstance(strength, (int, float)) and not isinstance(strength, bool)
+        if not (known and math.isfinite(strength) and 0 <= strength <= BRIGHTEST):
+            raise ParameterError(f"an environment's strength must be a number from 0, not {strength!r}")
+        object.__setattr__(self, "strength", float(strength))
+        if isinstance(self.source, tuple):
+            if len(self.source) != 6:
+                cubemap.face_files(self.source)
+        elif self.source not in BUILT_IN and not Path(self.source).suffix:
             raise ParameterError(
                 f"there is no environment {self.source!r}",
                 hints=(*did_you_mean(self.source, BUILT_IN), "there are sky and room, or give a picture's file name"),
@@ -56,31 +71,87 @@ class Environment:
         """The cube map, flat: faces, rows from the top, columns, RGB.
 
         Raises:
-            ParameterError: the picture cannot be read.
+            ParameterError: a picture cannot be read, or has no shape that surroundings have.
         """
-        return _texels(self.source, float(self.strength))
+        return _texels(self.source, float(self.strength), tuple(map(_stamp, self.files())))
+
+    def files(self) -> tuple[str, ...]:
+        """The files of its pictures: none, one or six; raises ``ParameterError`` where faces are missing."""
+        if self.source in BUILT_IN:
+            return ()
+        if isinstance(self.source, tuple) or cubemap.PLACE in self.source:
+            return cubemap.face_files(self.source)
+        return (self.source,)
+
+    def check(self) -> None:
+        """Raise ``ParameterError`` where the pictures are not there or do not fit, as far as their heads tell."""
+        files = self.files()
+        if len(files) == 6:
+            cubemap.check_faces(files)
+        elif files:
+            _check_shape(files[0], *picture_size(files[0]))
 
 
 def as_environment(value: Any) -> Environment | None:
     """An Environment from what users write; raises ``ParameterError`` for anything else."""
     if value is None or isinstance(value, Environment):
         return value
-    if isinstance(value, (str, os.PathLike)):
-        return Environment(os.fspath(value))
+    if isinstance(value, (str, os.PathLike, list, tuple)):
+        return Environment(value)  # type: ignore[arg-type] # it is what makes one of these
     raise ParameterError(f"an environment must be sky, room or a picture's file name, not {value!r}")
 
 
+def _as_source(value: Any) -> str | tuple[str, ...]:
+    """A path, or several; raises ``ParameterError``."""
+    if isinstance(value, (list, tuple)):
+        for one in value:
+            if not isinstance(one, (str, os.PathLike)):
+                raise ParameterError(f"a face of an environment must be a picture's file name, not {one!r}")
+        return tuple(map(os.fspath, value))
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    raise ParameterError(f"an environment must be sky, room or a picture's file name, not {value!r}")
+
+
+def _stamp(path: str) -> int:
+    """When a file was changed, so that it is read again after that; 0 where it cannot be told."""
+    try:
+        return os.stat(path).st_mtime_ns
+    except (OSError, ValueError):
+        return 0
+
+
 @lru_cache(maxsize=4)
-def _texels(source: str, strength: float) -> npt.NDArray[np.float32]:
+def _texels(source: str | tuple[str, ...], strength: float, stamps: tuple[int, ...]) -> npt.NDArray[np.float32]:
     if source == "sky":
-        colors = sky(_directions(SIDE))
+        colors: Any = sky(_directions(SIDE))
     elif source == "room":
         colors = room(_directions(SIDE))
     else:
-        picture = _read(source)
-        side = min(max(picture.shape[0] // 2, 16), LARGEST_SIDE)
-        colors = _looked_up(picture, _directions(side))
-    return np.ascontiguousarray((colors * strength).reshape(-1), np.float32)
+        colors = _pictured(source)
+    return np.ascontiguousarray(np.minimum(colors * strength, BRIGHTEST).reshape(-1), np.float32)
+
+
+def _pictured(source: str | tuple[str, ...]) -> Any:
+    """The faces that pictures show."""
+    if isinstance(source, tuple) or cubemap.PLACE in source:
+        faces = cubemap.read_faces(cubemap.face_files(source))
+        return cubemap.as_texels(faces, LARGEST_SIDE)
+    picture = read_picture(source)
+    height, width = picture.shape[:2]
+    _check_shape(source, width, height)
+    if cubemap.layout_of(width, height) is not None:
+        return cubemap.as_texels(cubemap.in_one(picture), LARGEST_SIDE)
+    side = min(max(height // 2, 16), LARGEST_SIDE)
+    return _looked_up(picture, _directions(side))
+
+
+def _check_shape(path: str, width: int, height: int) -> None:
+    """Raise where a single picture is neither a cube map nor, to a twentieth, twice as wide as high."""
+    if cubemap.layout_of(width, height) is None and abs(width / height - 2) > 0.1:
+        raise ParameterError(
+            f"the picture {path!r} of {width} by {height} pixels has no shape of surroundings", hint=SHAPES
+        )
 
 
 def _directions(side: int) -> Floats:
@@ -129,7 +200,7 @@ def room(direction: Floats) -> Floats:
     return np.where(lamp[..., None], 5.0, wall * shade[..., None])
 
 
-def _looked_up(picture: Floats, direction: Floats) -> Floats:
+def _looked_up(picture: npt.NDArray[np.float32], direction: Floats) -> Floats:
     """Bilinear samples of an equirectangular picture."""
     height, width = picture.shape[:2]
     x, y, z = np.moveaxis(direction, -1, 0)
@@ -142,58 +213,3 @@ def _looked_up(picture: Floats, direction: Floats) -> Floats:
     lower = picture[bottom, left] * (1 - fx) + picture[bottom, right] * fx
     mixed: Floats = upper * (1 - fy) + lower * fy
     return mixed
-
-
-def _read(path: str) -> Floats:
-    """A picture file in linear RGB, (height, width, 3)."""
-    from PIL import Image as Pillow
-
-    try:
-        if path.lower().endswith(".hdr"):
-            return radiance(Path(path).read_bytes(), path)
-        with Pillow.open(path) as opened:
-            encoded = np.asarray(opened.convert("RGB"), np.float64) / 255
-    except OSError as error:
-        raise ParameterError(
-            f"cannot read the environment {path!r}: {error.strerror or error}", hint="sky and room need no file"
-        ) from None
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-
-
-def radiance(data: bytes, path: str = "picture.hdr") -> Floats:
-    """A Radiance picture (RGBE, run lengths or plain) in linear RGB; raises ``ParameterError`` where it is none."""
-    wrong = ParameterError(f"{path!r} is no Radiance picture", hint="it begins with #?RADIANCE and has rows -Y by +X")
-    head, _, body = data.partition(b"\n\n")
-    size, _, pixels = body.partition(b"\n")
-    words = size.split()
-    if not head.startswith(b"#?") or len(words) != 4 or words[0] != b"-Y" or words[2] != b"+X":
-        raise wrong
-    try:
-        height, width = int(words[1]), int(words[3])
-        rgbe = _rows(pixels, height, width)
-    except (ValueError, IndexError):
-        raise wrong from None
-    scale = np.where(rgbe[..., 3:] > 0, np.ldexp(1.0, rgbe[..., 3:].astype(int) - 136), 0.0)
-    return rgbe[..., :3].astype(np.float64) * scale
-
-
-def _rows(pixels: bytes, height: int, width: int) -> npt.NDArray[np.uint8]:
-    if pixels[:2] != b"\x02\x02":
-        return np.frombuffer(pixels, np.uint8, height * width * 4).reshape(height, width, 4)
-    made = np.zeros((height, 4, width), np.uint8)
-    at = 0
-    for row in made:
-        at += 4
-        for channel in row:
-            x = 0
-            while x < width:
-                count = pixels[at]
-                run = count > 128
-                count -= 128 * run
-                if not 0 < count <= width - x:
-                    raise ValueError("a run leaves its row")
-                values = pixels[at + 1 : at + 2] * count if run else pixels[at + 1 : at + 1 + count]
-                channel[x : x + count] = np.frombuffer(values, np.uint8)
-                at += 2 if run else 1 + count
-                x += count
-    return made.transpose(0, 2, 1)

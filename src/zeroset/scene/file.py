@@ -7,7 +7,7 @@ Every key is optional but ``formula``, in whose place there may be surfaces and 
     bounds = 3.0                                    # or {center, radius}, or {min, max}
     background = [1.0, 1.0, 1.0]
     shadows = true
-    environment = "sky"                             # or "room", or a picture's file name
+    environment = "sky"                             # or "room", or pictures, named from this file's folder
     params = {a = 5.0}
     isovalues = [0.0, 2.0]                          # instead of f = 0
     colors = [[0.9, 0.3, 0.1], [0.1, 0.3, 0.8]]
@@ -22,19 +22,21 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import re
-import tomllib
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
+from zeroset.scene.blame import blamed, in_toml
 from zeroset.scene.camera import Camera
 from zeroset.scene.coloring import Coloring, formula_of
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.file_shapes import TOP, given, material_data, read_shapes, shapes_data
+from zeroset.scene.kinds import shown, wrong_kind
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
+from zeroset.scene.lines import Lines, read_toml
+from zeroset.scene.lines import Path as KeyPath
+from zeroset.scene.places import for_folder, from_folder
 from zeroset.scene.scene import MOST_LIGHTS, Scene, Shown, as_scene
 from zeroset.scene.several import Drawable, plain_surface
 
@@ -67,12 +69,16 @@ def load(path: str | os.PathLike[str]) -> Scene:
     _check_suffix(source)
     try:
         if source.stat().st_size > LARGEST:
-            raise SceneFileError(f"the scene file is larger than {LARGEST} bytes", path=path)
+            raise SceneFileError(
+                f"the scene file is larger than {LARGEST:,} bytes", path=path, hint="is this the file that was meant?"
+            )
         text = source.read_text(encoding="utf-8")
     except OSError as error:
         raise SceneFileError(f"cannot read the scene file: {error.strerror or error}", path=path) from None
     except UnicodeDecodeError:
-        raise SceneFileError("the scene file is not text in UTF-8", path=path) from None
+        raise SceneFileError("the scene file is not text in UTF-8", path=path, hint="save it as UTF-8") from None
+    except ValueError as error:
+        raise SceneFileError(f"cannot read the scene file: {error}", path=path) from None
     return loads(text, path)
 
 
@@ -82,54 +88,46 @@ def _check_suffix(path: Path) -> None:
 
 
 def loads(text: str, path: str | os.PathLike[str] = "scene.toml") -> Scene:
-    """A scene from the text of a scene file; ``path`` is what errors call it."""
-    try:
-        data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        found = re.search(r"line (\d+)", str(error))
-        line = int(found[1]) if found else None
-        if "end of document" in str(error):
-            line = max(1, len(text.splitlines()))
-        raise SceneFileError(f"this is no TOML: {error}", path=path, line=line) from None
-    return _Reader(text, path).scene(data)
+    """A scene from the text of a scene file.
+
+    Args:
+        text: TOML.
+        path: what errors call it; pictures are named from the folder of this file.
+
+    Raises:
+        SceneFileError: it is no scene; the message names the line.
+    """
+    return _Reader(text, path).scene(read_toml(text, path))
 
 
 class _Reader:
     def __init__(self, text: str, path: str | os.PathLike[str]) -> None:
         self._text = text
         self._path = path
-        self._from = 0
 
-    def _line(self, key: str) -> int | None:
-        """The first line that mentions a key; TOML's reader does not tell where values stood."""
-        pattern = re.compile(rf"(^|[\s{{,\[.]){re.escape(key)}\s*[=\]]")
-        lines = [i for i, line in enumerate(self._text.splitlines(), 1) if pattern.search(line)]
-        return next((i for i in lines if i >= self._from), lines[0] if lines else None)
+    def placing(self, place: Callable[[ZerosetError], KeyPath]) -> _placing:
+        """Errors inside get the line of a place."""
+        return _placing(self, place)
 
-    @contextmanager
-    def inside(self, what: str, index: int) -> Iterator[None]:
-        """Lines are looked for in one of several tables."""
-        heads = [i for i, line in enumerate(self._text.splitlines(), 1) if line.strip() == f"[[{what}]]"]
-        self._from = heads[index] if index < len(heads) else 0
-        try:
-            yield
-        finally:
-            self._from = 0
+    def fail(self, message: str, place: str | KeyPath, hints: tuple[str, ...] = ()) -> SceneFileError:
+        path: KeyPath = (place,) if isinstance(place, str) else place
+        return SceneFileError(message, path=self._path, line=Lines(self._text).of(path), hints=hints)
 
-    def placing(self, key: str) -> _placing:
-        """Errors inside get the line of a key."""
-        return _placing(self, key)
-
-    def fail(self, message: str, key: str, hints: tuple[str, ...] = ()) -> SceneFileError:
-        return SceneFileError(message, path=self._path, line=self._line(key), hints=hints)
-
-    def known(self, data: Any, keys: tuple[str, ...], where: str) -> Mapping[str, Any]:
+    def known(self, data: Any, keys: tuple[str, ...], where: str, path: KeyPath = ()) -> Mapping[str, Any]:
         if not isinstance(data, Mapping):
-            raise self.fail(f"{where} must be a table, not {data!r}", where)
+            raise self.fail(f"{where} must be a table, not {shown(data)}", path)
         for key in data:
             if key not in keys:
-                raise self.fail(f"{where} has no {key!r}", key, (*did_you_mean(key, keys), f"it has {', '.join(keys)}"))
+                hints = (*did_you_mean(key, keys), f"it has {', '.join(keys)}")
+                raise self.fail(f"{where} has no {key!r}", (*path, key), hints)
         return data
+
+    def kinds(self, value: Any, path: KeyPath) -> Any:
+        """The value, if all in it is of the kind that is meant there."""
+        wrong = wrong_kind(value, path)
+        if wrong is not None:
+            raise self.fail(wrong[1], wrong[0])
+        return value
 
     def scene(self, data: dict[str, Any]) -> Scene:
         self.known(data, KEYS, "a scene")
@@ -137,15 +135,16 @@ class _Reader:
         if lights is not None and not isinstance(lights, list):
             raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
         shape = read_shapes(self, data)
-        camera = None if "camera" not in data else self.build(Camera, data["camera"], "camera")
+        camera = None if "camera" not in data else self.build(Camera, data["camera"], "the camera", ("camera",))
         material = self._material(data.get("material", {}), shape)
-        around = data.get("environment")
-        if isinstance(around, Mapping):
-            around = self.build(Environment, around, "environment")
-        with _placing(self, "environment"):
-            around = as_environment(around)
-        lit = DEFAULT_LIGHTS if lights is None else tuple(self.build(Light, light, "lights") for light in lights)
-        with _placing(self, "lights" if len(lit) > MOST_LIGHTS else "background"):
+        around = self._environment(data.get("environment"))
+        for key in {"background", "shadows"} & set(data):
+            self.kinds(data[key], (key,))
+        lit = DEFAULT_LIGHTS
+        if lights is not None:
+            lit = tuple(self.build(Light, light, "a light", ("lights", i)) for i, light in enumerate(lights))
+        place = ("lights", MOST_LIGHTS) if len(lit) > MOST_LIGHTS else ("background",)
+        with _placing(self, lambda error: place):
             return Scene(
                 shape,
                 camera,
@@ -156,61 +155,79 @@ class _Reader:
                 around,
             )
 
-    def _material(self, data: Any, shape: Drawable) -> Any:
-        material = self.material(data)
+    def _material(self, data: Any, shape: Drawable) -> Material:
+        material = self.material(data, ("material",))
         if material.coloring is not None:
-            with _placing(self, "by" if isinstance(data["coloring"], Mapping) else "coloring"):
-                formula_of(material.coloring, plain_surface(shape, "colouring by a quantity"))
+            known: Coloring = material.coloring
+            inside = ("by",) if isinstance(data["coloring"], Mapping) else ()
+            with _placing(self, lambda error: ("material", "coloring", *inside)):
+                formula_of(known, plain_surface(shape, "colouring by a quantity"))
         return material
 
-    def material(self, data: Any) -> Any:
+    def material(self, data: Any, path: KeyPath) -> Material:
         """A material from a table."""
-        if isinstance(data, Mapping) and isinstance(data.get("coloring"), Mapping):
-            data = {**data, "coloring": self.build(Coloring, data["coloring"], "coloring")}
-        return self.build(Material, data, "material")
+        written = data.get("coloring") if isinstance(data, Mapping) else None
+        if not isinstance(written, Mapping):
+            plain: Material = self.build(Material, data, "the material", path)
+            return plain
+        coloring = self.build(Coloring, written, "the coloring", (*path, "coloring"))
+        rest = {key: value for key, value in data.items() if key != "coloring"}
+        return dataclasses.replace(self.material(rest, path), coloring=coloring)
 
-    def table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-        """A table in a table; an empty one where there is none."""
+    def table(self, data: Mapping[str, Any], key: str, path: KeyPath) -> Mapping[str, Any]:
+        """A table of names and values in a table; an empty one where there is none."""
         value = data.get(key, {})
         if not isinstance(value, Mapping):
-            raise self.fail(f"{key} must be a table of names and values", key)
-        return value
+            raise self.fail(f"{key} must be a table of names and values", (*path, key))
+        kept: Mapping[str, Any] = self.kinds(value, (*path, key))
+        return kept
 
-    def build(self, cls: type[Any], data: Any, where: str) -> Any:
+    def _environment(self, data: Any) -> Environment | None:
+        """The surroundings, their pictures named from the file's folder; they are there, and fit."""
+        if data is None:
+            return None
+        if isinstance(data, Mapping):
+            self.known(data, ("source", "strength"), "the environment", ("environment",))
+            if "source" not in data:
+                raise self.fail("the environment needs a source", "environment", ('source = "sky"',))
+            around = self.build(Environment, data, "the environment", ("environment",))
+        else:
+            with _placing(self, lambda error: ("environment",)):
+                around = as_environment(self.kinds(data, ("environment",)))
+        with _placing(self, lambda error: ("environment", "source")):
+            around = from_folder(around, os.path.dirname(self._path))
+            around.check()
+        return around
+
+    def build(self, cls: type[Any], data: Any, where: str, path: KeyPath) -> Any:
         fields = tuple(f.name for f in dataclasses.fields(cls))
-        values = {k: tuple(v) if isinstance(v, list) else v for k, v in self.known(data, fields, where).items()}
+        known = self.kinds(self.known(data, fields, where, path), path)
+        values = {k: tuple(v) if isinstance(v, list) else v for k, v in known.items()}
+        if "fov" in values and "height" in values:
+            raise self.fail(
+                "the camera has both a fov and a height", (*path, "height"), ("height alone is without perspective",)
+            )
         try:
             return cls(**values)
         except ZerosetError as error:
-            raise self.fail(str(error), next(filter(_refused(cls, values), values), where)) from None
-
-
-def _refused(cls: type[Any], values: Mapping[str, Any]) -> Callable[[str], bool]:
-    """Says which one of several values is not taken even by itself: the one to blame."""
-
-    def refuses(key: str) -> bool:
-        try:
-            cls(**{key: values[key]})
-        except ZerosetError:
-            return True
-        return False
-
-    return refuses
+            hints = tuple(map(in_toml, error.hints))
+            raise self.fail(error.message, (*path, *blamed(cls, values)), hints) from None
 
 
 class _placing:  # noqa: N801 - reads as a statement
     """Errors of what a file says get the file and the line."""
 
-    def __init__(self, reader: _Reader, key: str) -> None:
+    def __init__(self, reader: _Reader, place: Callable[[ZerosetError], KeyPath]) -> None:
         self._reader = reader
-        self._key = key
+        self._place = place
 
     def __enter__(self) -> None:
         return None
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: Any) -> None:
         if isinstance(error, ZerosetError) and not (isinstance(error, SceneFileError) and error.path is not None):
-            raise self._reader.fail(str(error), self._key) from None
+            said = "\n".join(filter(None, (error.message, error.place())))
+            raise self._reader.fail(said, self._place(error), tuple(map(in_toml, error.hints))) from None
 
 
 def dumps(scene: Shown) -> str:
@@ -243,6 +260,8 @@ def dumps(scene: Shown) -> str:
 def save(scene: Shown, path: str | os.PathLike[str]) -> Path:
     """Write a scene file, whole or not at all; gives its path.
 
+    Pictures of the surroundings stay where they are; the file names them from its own folder.
+
     Raises:
         SceneFileError: the file's name does not end in ``.toml``.
         OutputError: the file cannot be written.
@@ -258,7 +277,13 @@ def save(scene: Shown, path: str | os.PathLike[str]) -> Path:
 
     target = Path(path)
     _check_suffix(target)
-    data = dumps(scene).encode()
+    scene = as_scene(scene)
+    if scene.environment is not None:
+        scene = dataclasses.replace(scene, environment=for_folder(scene.environment, target.parent))
+    try:
+        data = dumps(scene).encode()
+    except UnicodeEncodeError:
+        raise SceneFileError("a name in the scene cannot be written in UTF-8", path=path, hint="rename it") from None
     with replacing(target) as file:
         file.write(data)
     return target

@@ -21,13 +21,16 @@ itself. Where there is only one, ``solid = "ball - hole"`` may also stand at the
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from typing import Any, Protocol
 
-from zeroset.errors import SceneFileError
+from zeroset.errors import ParameterError, SceneFileError, ZerosetError
+from zeroset.scene.blame import blamed_bounds, blamed_params
 from zeroset.scene.bounds import Ball, Bounds, parse_bounds
+from zeroset.scene.isovalues import isovalues_of
 from zeroset.scene.light import Material
+from zeroset.scene.lines import Path
 from zeroset.scene.scene import Scene
 from zeroset.scene.several import Drawable, Several, as_drawable
 from zeroset.scene.solid import Solid
@@ -47,23 +50,23 @@ NAMELESS = "_"
 class Reader(Protocol):
     """What reads a file, and says where it is wrong."""
 
-    def fail(self, message: str, key: str, hints: tuple[str, ...] = ()) -> SceneFileError:
-        """An error at the line of a key."""
+    def fail(self, message: str, place: str | Path, hints: tuple[str, ...] = ()) -> SceneFileError:
+        """An error at a place."""
 
-    def known(self, data: Any, keys: tuple[str, ...], where: str) -> Mapping[str, Any]:
+    def known(self, data: Any, keys: tuple[str, ...], where: str, path: Path = ()) -> Mapping[str, Any]:
         """A table that has only these keys."""
 
-    def table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-        """A table in a table; an empty one where there is none."""
+    def kinds(self, value: Any, path: Path) -> Any:
+        """The value, if all in it is of the kind that is meant there."""
 
-    def material(self, data: Any) -> Any:
+    def table(self, data: Mapping[str, Any], key: str, path: Path) -> Mapping[str, Any]:
+        """A table of names and values in a table; an empty one where there is none."""
+
+    def material(self, data: Any, path: Path) -> Material:
         """A material from a table."""
 
-    def placing(self, key: str) -> AbstractContextManager[None]:
-        """Errors inside get the line of a key."""
-
-    def inside(self, what: str, index: int) -> AbstractContextManager[None]:
-        """Lines are looked for in one of several tables."""
+    def placing(self, place: Callable[[ZerosetError], Path]) -> AbstractContextManager[None]:
+        """Errors inside get the line of a place."""
 
 
 def read_shapes(reader: Reader, data: Mapping[str, Any]) -> Drawable:
@@ -77,41 +80,64 @@ def read_shapes(reader: Reader, data: Mapping[str, Any]) -> Drawable:
             f"a scene has a formula or {both}, not both", "formula", ("put the formula into [[surfaces]]",)
         )
     if "surfaces" not in data and "solid" not in data:
-        return _surface(reader, data)
+        return _surface(reader, data, ())
     for key in (*OWN, "name", "bounds") if "solid" not in data else ():
         if key in data:
             raise reader.fail(f"{key} belongs to one surface", key, ("put it below [[surfaces]]",))
     shapes = _Shapes(reader)
     for i, table in enumerate(listed):
-        with reader.inside("surfaces", i):
-            shapes.add(reader.known(table, (*KEYS, "solid", "material"), "a surface"))
+        path: Path = ("surfaces", i)
+        shapes.add(reader.known(table, (*KEYS, "solid", "material"), "a surface", path), path)
     if "solid" in data:
-        whole = shapes.solid(data)
+        whole = shapes.solid(data, ())
         for name in shapes.alone:
             hints = ("leave it out, or join it",)
             raise reader.fail(f"the surface {name.strip()!r} is no part of the solid", "solid", hints)
         return whole
-    with reader.placing("surfaces"):
+    with reader.placing(lambda error: ("surfaces",)):
         made = as_drawable([*shapes.alone.values()])
         # A scene knows how much it can show.
         return Scene(made).surface
 
 
-def _surface(reader: Reader, data: Mapping[str, Any]) -> Surface:
+def _surface(reader: Reader, data: Mapping[str, Any], path: Path) -> Surface:
     """A surface from its keys."""
     if not isinstance(data.get("formula"), str):
-        raise reader.fail("a scene needs a formula as text", "formula", ('formula = "x^2 + y^2 + z^2 = 1"',))
-    params = reader.table(data, "params")
-    with reader.placing("formula"):
-        made = surface(data["formula"], params, name=str(data.get("name", "")))
-    with reader.placing("bounds"):
-        made = dataclasses.replace(made, bounds=parse_bounds(data.get("bounds")))
+        raise reader.fail("a scene needs a formula as text", (*path, "formula"), ('formula = "x^2 + y^2 + z^2 = 1"',))
+    params = reader.table(data, "params", path)
+    name = reader.kinds(data.get("name", ""), (*path, "name"))
+    with reader.placing(lambda error: (*path, *blamed_params(params, error))):
+        made = surface(data["formula"], params, name=name)
+    made = dataclasses.replace(made, bounds=_bounds(reader, data, path))
     if "colors" in data and "isovalues" not in data:
-        raise reader.fail("colors are those of isovalues, and there are none", "colors", ("isovalues = [0.0, 0.5]",))
+        where = (*path, "colors")
+        raise reader.fail("colors are those of isovalues, and there are none", where, ("isovalues = [0.0, 0.5]",))
     if "isovalues" in data:
-        with reader.placing("isovalues"):
-            made = made.with_isovalues(data["isovalues"], data.get("colors"))
+        values, colors = _isovalues(reader, data, path)
+        with reader.placing(lambda error: (*path, _blamed_isovalues(values))):
+            made = made.with_isovalues(values, colors)
     return made
+
+
+def _bounds(reader: Reader, data: Mapping[str, Any], path: Path) -> Bounds | None:
+    limits = reader.kinds(data["bounds"], (*path, "bounds")) if "bounds" in data else None
+    with reader.placing(lambda error: (*path, "bounds", *blamed_bounds(limits))):
+        return parse_bounds(limits)
+
+
+def _isovalues(reader: Reader, data: Mapping[str, Any], path: Path) -> tuple[Any, Any]:
+    """The isovalues, and their colours if there are any."""
+    values = reader.kinds(data["isovalues"], (*path, "isovalues"))
+    return values, reader.kinds(data["colors"], (*path, "colors")) if "colors" in data else None
+
+
+def _blamed_isovalues(values: Any) -> str:
+    """Which key is to blame for isovalues that are not taken."""
+    try:
+        isovalues_of(values)
+    except ParameterError:
+        return "isovalues"
+    return "colors"
 
 
 class _Shapes:
@@ -124,43 +150,39 @@ class _Shapes:
         self.alone: dict[str, Surface | Solid] = {}
         """What is drawn by itself."""
 
-    def add(self, table: Mapping[str, Any]) -> None:
+    def add(self, table: Mapping[str, Any], path: Path) -> None:
         """One more table."""
         reader = self._reader
-        name = str(table.get("name", ""))
+        name = reader.kinds(table.get("name", ""), (*path, "name"))
         if name in self._named:
-            raise reader.fail(f"there are two surfaces named {name!r}", "name", ("give one another name",))
+            raise reader.fail(f"there are two surfaces named {name!r}", (*path, "name"), ("give one another name",))
         if ("formula" in table) == ("solid" in table):
-            raise reader.fail(
-                "a surface has a formula or a solid, and not both", "name", ('formula = "x^2 + y^2 = 1"',)
-            )
-        made = self.solid(table) if "solid" in table else self._surface(table)
+            raise reader.fail("a surface has a formula or a solid, and not both", path, ('formula = "x^2 + y^2 = 1"',))
+        made = self.solid(table, path) if "solid" in table else self._surface(table, path)
         if name:
             self._named[name] = made
         self._count += 1
-        # No name has a line break in it, so these are no names.
+        # No name begins with a line break, so these are no names.
         self.alone[name or f"\n{self._count}"] = made
 
-    def _surface(self, table: Mapping[str, Any]) -> Surface:
-        made = _surface(self._reader, table)
+    def _surface(self, table: Mapping[str, Any], path: Path) -> Surface:
+        made = _surface(self._reader, table, path)
         if "material" in table:
-            made = made.with_material(self._reader.material(table["material"]))
+            made = made.with_material(self._reader.material(table["material"], (*path, "material")))
         return dataclasses.replace(made, name=_without_number(made.name))
 
-    def solid(self, table: Mapping[str, Any]) -> Surface | Solid:
+    def solid(self, table: Mapping[str, Any], path: Path) -> Surface | Solid:
         """A solid from its text, its bounds and its name; what it is made of is not drawn by itself."""
         reader = self._reader
         # At the top of a file the material is the scene's.
-        for key in OWN if "surfaces" in table else (*OWN, "material"):
+        for key in (*OWN, "material") if path else OWN:
             if key in table:
-                raise reader.fail(f"a solid has no {key} of its own", key, ("give its surfaces theirs",))
-        if not isinstance(table["solid"], str):
-            raise reader.fail("a solid is a text", "solid", ('solid = "(a & b) - c"',))
-        with reader.placing("solid"):
-            made = parse_solid(table["solid"], self._named)
-        with reader.placing("bounds"):
-            limits = parse_bounds(table.get("bounds"))
-        used = names_in(table["solid"])
+                raise reader.fail(f"a solid has no {key} of its own", (*path, key), ("give its surfaces theirs",))
+        text = reader.kinds(table["solid"], (*path, "solid"))
+        with reader.placing(lambda error: (*path, "solid")):
+            made = parse_solid(text, self._named)
+        limits = _bounds(reader, table, path)
+        used = names_in(text)
         self.alone = {key: thing for key, thing in self.alone.items() if key not in used}
         if isinstance(made, Surface):
             return dataclasses.replace(made, bounds=limits or made.bounds)

@@ -51,6 +51,9 @@ class Light:
         if self.position is not None:
             object.__setattr__(self, "position", vector(self.position, "a light's position", ParameterError))
         object.__setattr__(self, "color", color(self.color, "a light's colour"))
+        if self.headlight not in (True, False):
+            raise ParameterError(f"a light's headlight must be True or False, not {self.headlight!r}")
+        object.__setattr__(self, "headlight", bool(self.headlight))
         if max(map(abs, self.direction)) < SHORTEST:
             raise ParameterError("a light's direction must not be zero")
 

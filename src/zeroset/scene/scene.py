@@ -32,8 +32,8 @@ class Scene:
         lights: where the light comes from.
         background: linear RGB behind everything.
         shadows: whether the lights throw shadows.
-        environment: what is seen all around instead of the background: an Environment, ``"sky"``, ``"room"`` or the
-            file name of a picture.
+        environment: what is seen all around instead of the background: an Environment, ``"sky"``, ``"room"``, the
+            file name of a picture, or those of a cube map.
 
     Example:
         >>> import zeroset as zs

@@ -92,6 +92,8 @@ def trace_beam(patch: Patch, near: Value, far: Value, finest: Value) -> Beam:
 
 PATIENCE = 200
 """Evaluations that the search for a thin part may cost a pixel."""
+EARLY = 64.0
+"""Finest steps from which on a stretch is asked whether the surface there is an ordinary one."""
 
 
 class Thin(NamedTuple):
@@ -105,9 +107,9 @@ class Thin(NamedTuple):
 def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:
     """Look along a pixel's beam for a part of the surface that is thinner than the pixel.
 
-    Where a step of ``finest`` cannot be excluded, the derivatives of f across the pixel decide: near an ordinary
-    silhouette one of them keeps its sign, and the pixel is left to its ray; where both may vanish f has an extremum
-    near zero inside the pixel, which is what a thin part is.
+    Where a step cannot be excluded, the derivatives of f across the pixel decide: near an ordinary silhouette one of
+    them keeps its sign, mostly over a long stretch, and the pixel is left to its ray there; where both may vanish, down
+    to a step of ``finest``, f has an extremum near zero inside the pixel, which is what a thin part is.
     """
 
     def running(a: Value, h: Value, found: Value, count: Value) -> Value:
@@ -117,10 +119,11 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value)
         b = a + h
         point, t = patch.over(a, b)
         excluded = patch.excludes(point)
-        stuck = ~excluded & (h <= finest)
-        (thin,) = if_(stuck, lambda: (_flat_across(patch, point, t),), lambda: (False,))
-        passed = excluded | (stuck & ~thin)
-        return passed.select(b, a), excluded.select(h * 2.0, stuck.select(h, h * 0.5)), thin, count + 1
+        asked = ~excluded & (h <= finest * EARLY)
+        (flat,) = if_(asked, lambda: (_flat_across(patch, point, t),), lambda: (True,))
+        passed = excluded | ~flat
+        thin = ~passed & (h <= finest)
+        return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), thin, count + 1
 
     a, h, found, count = while_(running, turn, near, step.maximum(finest), constant(False, BOOL), constant(0, U32))
     return Thin(found, a + h * 0.5, count)

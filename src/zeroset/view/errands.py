@@ -58,7 +58,7 @@ def save_picture(session: Session, value: str) -> None:
         kind = picture_format(check_writable(place))
         size = read_size(asked, usual)
         scene, method = state.scene, state.method
-        shot = Shot(scene, size, method, state.device, state.tolerance, state.overlay, moving=False)
+        shot = Shot(scene, size, method, state.device, state.tolerance, state.overlay, False, state.antialias)
         data = encode(np.ascontiguousarray(paint(shot, lambda: False).pixels[..., :3]), kind)
         with replacing(place) as file:
             file.write(data)
@@ -103,14 +103,13 @@ def _copy(session: Session, text: str, what: str) -> None:
 
 def gallery(session: Session, value: str) -> None:
     """Show a surface of the gallery."""
-    from zeroset.scene.scene import Scene
     from zeroset.shelf import gallery as shelf
     from zeroset.surfaces import entry
 
     state = session.state
     surface = shelf[value]
     session.state = replace(state, text=entry(value).formula, spans={}, motions={}, flying=False)
-    session.show(Scene(surface, None, dressed(state.material, surface), state.lights, state.background))
+    session.show(replace(state.scene, surface=surface, camera=None, material=dressed(state.material, surface)))
 
 
 def fit_bounds(session: Session, value: str) -> None:

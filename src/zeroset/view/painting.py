@@ -27,6 +27,9 @@ from zeroset.view.worker import GivenUp, Superseded
 FIRST = 320
 """Longer side of the first picture of a formula: it is there as soon as the formula is compiled."""
 
+DRAFT_DEPTH = 2
+"""Surfaces that a ray may meet after the first while something moves: into glass and out again."""
+
 
 @dataclass(frozen=True)
 class Shot:
@@ -34,6 +37,7 @@ class Shot:
 
     Attributes:
         moving: whether it is one of many in a row; at rest thin parts are drawn too, and there is time.
+        antialias: rays of each pixel at an edge, at rest.
         asked: when it was asked for.
     """
 
@@ -44,6 +48,7 @@ class Shot:
     tolerance: float | None
     overlay: str
     moving: bool
+    antialias: int = 1
     asked: float = field(default_factory=time.perf_counter, compare=False)
 
 
@@ -81,6 +86,7 @@ class Picture:
             "unresolved": self.unresolved,
             "certified": self.certified,
             "overlay": shot.overlay,
+            "antialias": 1 if shot.moving else shot.antialias,
             "method": shot.method.name,
             "device": self.device,
         }
@@ -108,6 +114,8 @@ def paint(shot: Shot, superseded: Superseded) -> Picture:
         device=shot.device,
         tolerance=shot.tolerance,
         draft=shot.moving,
+        depth=DRAFT_DEPTH if shot.moving else None,
+        antialias=1 if shot.moving else shot.antialias,
         progress=None if shot.moving else look_up,
     )
     spent = (time.perf_counter() - begin) * 1e3

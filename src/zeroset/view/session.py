@@ -216,7 +216,9 @@ class Session:
     def _shot(self, moving: bool) -> Shot:
         state = self.state
         size = self._pace.size(*self.size) if moving else self.size
-        shot = Shot(state.scene, size, state.method, state.device, state.tolerance, state.overlay, moving)
+        shot = Shot(
+            state.scene, size, state.method, state.device, state.tolerance, state.overlay, moving, state.antialias
+        )
         # The GPU's compiler would slow down what the CPU is about to draw: it waits until that is there.
         return self._stand_in.placed(shot, compile=self.resting)
 

@@ -9,6 +9,7 @@ from typing import Any
 from zeroset.scene.bounds import Ball, Bounds
 from zeroset.scene.camera import Camera
 from zeroset.scene.coloring import Coloring
+from zeroset.scene.environment import Environment
 from zeroset.scene.file import dumps
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
 from zeroset.scene.surface import Surface
@@ -28,12 +29,18 @@ def python(state: State, size: tuple[int, int]) -> str:
         scene.append(f"lights=({lights}{',' if len(state.lights) == 1 else ''})")
     if state.background != DEFAULT_BACKGROUND:
         scene.append(f"background={state.background!r}")
+    if state.shadows:
+        scene.append("shadows=True")
+    if state.environment is not None:
+        scene.append(f"environment={_environment(state.environment)}")
     lines += [f"scene = zs.Scene({', '.join(scene)})"]
     call = ["scene", f"size={size!r}"]
     if state.method.name != "auto" or _options(state.method):
         call.append(f"method={_method(state.method)}")
     if state.tolerance is not None:
         call.append(f"tolerance={state.tolerance!r}")
+    if state.antialias > 1:
+        call.append(f"antialias={state.antialias}")
     lines += [f"image = zs.render({', '.join(call)})", 'image.save("picture.png")', ""]
     return "\n".join(lines)
 
@@ -46,6 +53,8 @@ def command(state: State, size: tuple[int, int]) -> str:
         rest += ["-m", state.method.name + (f":{method}" if method else "")]
     if state.tolerance is not None:
         rest += ["-t", repr(state.tolerance)]
+    if state.antialias > 1:
+        rest += ["--antialias", str(state.antialias)]
     rest += ["-o", "picture.png"]
     if not _plain(state):
         scene = dumps(state.scene).rstrip("\n")
@@ -57,6 +66,7 @@ def _plain(state: State) -> bool:
     """Whether options alone say all that there is to say."""
     bounds = state.bounds
     lit = (state.material, state.lights, state.background) == (Material(), DEFAULT_LIGHTS, DEFAULT_BACKGROUND)
+    lit = lit and not state.shadows and state.environment is None
     return lit and not state.surface.arrays and (not isinstance(bounds, Ball) or not any(bounds.center))
 
 
@@ -88,6 +98,10 @@ def _bounds(bounds: Bounds) -> str:
 def _camera(camera: Camera) -> str:
     lens = f"fov={camera.fov!r}" if camera.height is None else f"height={camera.height!r}"
     return f"zs.Camera(eye={camera.eye!r}, target={camera.target!r}, up={camera.up!r}, {lens})"
+
+
+def _environment(around: Environment) -> str:
+    return repr(around.source) if around.strength == 1 else f"zs.Environment({around.source!r}, {around.strength!r})"
 
 
 def _method(method: Method) -> str:

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from zeroset.errors import DeviceError
 from zeroset.rendering.frame import settle
+from zeroset.rendering.shading import Lighting, Smooth
 from zeroset.runtime import get_device
 from zeroset.scene.bounds import bounds_kind
 from zeroset.view.painting import Shot, paint
@@ -18,16 +19,17 @@ from zeroset.view.worker import Failed, Newest, Superseded
 
 SMALL = 32
 """Side of the picture that is drawn to compile everything."""
-Structure = tuple[str, str, str, int, str, str]
+Structure = tuple[str, str, str, Lighting, str, str]
 
 
 def structure(shot: Shot) -> Structure:
     """What the kernels of a picture depend on."""
     surface = shot.scene.plain("the window")
-    lights = len(shot.scene.lights)
+    # A picture that moves has no smooth edges, but both are compiled together.
+    light = Lighting.of(shot.scene, Smooth(shot.antialias))
     coloring = shot.scene.material.coloring
     by = "" if coloring is None else coloring.by
-    return surface.field.digest, shot.method.structure(), bounds_kind(surface.bounds), lights, shot.device, by
+    return surface.field.digest, shot.method.structure(), bounds_kind(surface.bounds), light, shot.device, by
 
 
 class StandIn:
@@ -90,7 +92,8 @@ def slow_to_compile(device: str) -> bool:
 
 def compiled(shot: Shot, superseded: Superseded) -> None:
     """Draw a small picture, and wait for the kernels that it did not need as well."""
-    paint(replace(shot, size=(SMALL, SMALL), moving=False), lambda: False)
+    for moving in (True, False):
+        paint(replace(shot, size=(SMALL, SMALL), moving=moving), lambda: False)
     settle()
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Camera, fit_camera
 from zeroset.scene.coloring import suited
+from zeroset.scene.environment import BUILT_IN, Environment
 from zeroset.scene.light import DEFAULT_LIGHTS, Color, Light, Material
 from zeroset.scene.scene import Scene
 from zeroset.scene.surface import Surface
@@ -57,6 +58,10 @@ class State:
         surface: what is drawn, inside bounds of its own.
         camera: how it is seen.
         home: the camera that "reset" goes back to.
+        shadows: whether lights throw shadows.
+        environment: what is seen all around instead of the background.
+        picture: surroundings from a picture that the window was opened with, to come back to.
+        antialias: rays of each pixel at an edge, in the picture at rest.
         tolerance: world length to which roots are found; None takes the default.
         device: the name of the device that draws.
         refit: whether bounds follow the formula, or are the user's own.
@@ -75,6 +80,10 @@ class State:
     material: Material = field(default_factory=Material)
     lights: tuple[Light, ...] = DEFAULT_LIGHTS
     background: Color = BACKGROUND
+    shadows: bool = False
+    environment: Environment | None = None
+    picture: Environment | None = None
+    antialias: int = 1
     tolerance: float | None = None
     device: str = "auto"
     overlay: str = "none"
@@ -94,7 +103,15 @@ class State:
     @property
     def scene(self) -> Scene:
         """What ``zs.render`` is given to make this picture."""
-        return Scene(self.surface, self.camera, dressed(self.material, self.surface), self.lights, self.background)
+        return Scene(
+            self.surface,
+            self.camera,
+            dressed(self.material, self.surface),
+            self.lights,
+            self.background,
+            self.shadows,
+            self.environment,
+        )
 
     @property
     def bounds(self) -> Bounds:
@@ -125,6 +142,7 @@ def opened(scene: Scene, text: str, method: Method, device: str, tolerance: floa
     material = surface.material or scene.material
     surface = surface.with_bounds(surface.fitted).with_material(None)
     camera = scene.camera or surface.camera or fit_camera(surface.fitted)
+    around = scene.environment
     return State(
         text,
         surface,
@@ -134,8 +152,11 @@ def opened(scene: Scene, text: str, method: Method, device: str, tolerance: floa
         material,
         scene.lights,
         scene.background,
-        tolerance,
-        device,
+        scene.shadows,
+        around,
+        None if around is None or around.source in BUILT_IN else around,
+        tolerance=tolerance,
+        device=device,
         refit=refit,
     )
 

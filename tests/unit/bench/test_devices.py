@@ -12,7 +12,7 @@ from zeroset.bench.devices import Devices
 from zeroset.bench.drivers import SWITCHES, no_driver_caches
 from zeroset.bench.machine import this_machine
 from zeroset.runtime.cache import Cache
-from zeroset.runtime.gpu import GpuDevice
+from zeroset.runtime.gpu.device import GpuDevice
 
 
 def test_a_cpu_can_be_had_afresh() -> None:

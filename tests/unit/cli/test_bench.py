@@ -11,7 +11,7 @@ from tests.gpus import needs_gpu
 
 from zeroset.cli import main
 from zeroset.runtime import get_device
-from zeroset.runtime.gpu import GpuDevice
+from zeroset.runtime.gpu.device import GpuDevice
 
 TINY = ("--size", "64", "--seconds", "0", "--threads", "1")
 

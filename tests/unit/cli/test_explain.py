@@ -8,7 +8,8 @@ from tests.gpus import needs_gpu
 from zeroset.errors import DeviceError
 from zeroset.kernel.passes import PASSES
 from zeroset.runtime import Device, get_device, registry
-from zeroset.runtime.gpu import GpuDevice, adapter
+from zeroset.runtime.gpu import adapter
+from zeroset.runtime.gpu.device import GpuDevice
 
 Run = Callable[..., object]
 

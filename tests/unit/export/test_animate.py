@@ -80,9 +80,9 @@ class Counting(Meter):
         super().__init__(get_device(name))
         self.asked = self.allocated = self.copied = 0
 
-    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> Program:
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> Program:
         self.asked += 1
-        return super().compile_cached(key, build)
+        return super().compile_cached(key, build, quick)
 
     def allocate(self, type_: Type, count: int) -> Any:
         self.allocated += 1
@@ -146,6 +146,23 @@ def test_frames_of_another_animation_are_in_the_way(tmp_path: Path) -> None:
             ball(tmp_path / "a.gif", **changed)
     assert ball(tmp_path / "a.gif", size=16, restart=True).drawn == 4
     assert os.listdir(tmp_path) == ["a.gif"]
+
+
+def test_frames_with_other_surroundings_are_another_animation(tmp_path: Path) -> None:
+    around = tmp_path / "around.png"
+    scene = zs.Scene(BALL, environment=str(around))
+    options: dict[str, Any] = {"vary": {"r": (0.5, 1.5)}, "frames": 4, "size": 32}
+    with pytest.raises(zs.errors.ParameterError, match="there is no picture"):
+        zs.animate(scene, tmp_path / "a.gif", **options)
+    assert os.listdir(tmp_path) == []
+    Image.new("RGB", (8, 4), (255, 0, 0)).save(around)
+    with pytest.raises(Interrupted):
+        zs.animate(scene, tmp_path / "a.gif", **options, progress=after(2))
+    Image.new("RGB", (8, 4), (0, 255, 0)).save(around)
+    with pytest.raises(zs.errors.OutputError, match="holds 2 frames of another animation: other values"):
+        zs.animate(scene, tmp_path / "a.gif", **options)
+    Image.new("RGB", (8, 4), (255, 0, 0)).save(around)
+    assert zs.animate(scene, tmp_path / "a.gif", **options).drawn == 2
 
 
 def test_how_a_movie_is_put_together_does_not_draw_it_again(tmp_path: Path) -> None:

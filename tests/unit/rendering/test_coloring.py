@@ -12,6 +12,7 @@ from tests.gpus import needs_gpu
 import zeroset as zs
 from zeroset.errors import ParameterError, UnknownNameError, ZerosetError
 from zeroset.rendering.drawn import as_drawn
+from zeroset.rendering.frame import settle
 from zeroset.rendering.shading import Lighting, Smooth, srgb
 from zeroset.rendering.tint import found_range
 from zeroset.runtime import get_device
@@ -288,6 +289,7 @@ def test_the_range_is_that_of_what_is_seen() -> None:
 def test_another_map_or_range_compiles_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     device = get_device("cpu")
     first = np.asarray(zs.render(RING, SIZE, color_by=zs.Coloring("x*y"), device=device)).copy()
+    settle()
 
     def refused(*args: object) -> None:
         raise AssertionError("a kernel was compiled")

@@ -12,7 +12,8 @@ from tests.gpus import needs_gpu
 import zeroset as zs
 from zeroset.errors import ParameterError, SceneFileError
 from zeroset.rendering.shading import srgb
-from zeroset.scene.environment import Environment, radiance, sky
+from zeroset.scene.environment import Environment, sky
+from zeroset.scene.radiance import radiance
 
 DEVICES = ["cpu", pytest.param("gpu", marks=needs_gpu)]
 SIZE = 96
@@ -180,7 +181,7 @@ def test_optics_in_scene_files(tmp_path: Path) -> None:
     ("arguments", "wrong"),
     [
         ({"environment": "skye"}, "no environment 'skye'"),
-        ({"environment": "nowhere.png"}, "cannot read the environment"),
+        ({"environment": "nowhere.png"}, "there is no picture 'nowhere.png'"),
         ({"environment": 5}, "an environment must be"),
         ({"depth": 33, "environment": "sky"}, "the depth must be"),
     ],

@@ -254,3 +254,30 @@ def test_old_programs_are_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
             store(k.buffer("x", F32, writable=True), k.index(), 1.0)
         device.compile(k.kernel)
     assert len(device._programs._made) == 2
+
+
+def test_one_kernel_is_traced_at_a_time() -> None:
+    device = CpuDevice(cache=Cache(None))
+    inside, most = [0], [0]
+    together = threading.Barrier(4)
+
+    def build(name: str) -> Kernel:
+        inside[0] += 1
+        most[0] = max(most[0], inside[0])
+        with KernelBuilder(name) as k:
+            x, lane = k.buffer("x", F32, writable=True), k.index()
+            for _ in range(300):
+                store(x, lane, load(x, lane) + 1.0)
+        inside[0] -= 1
+        return k.kernel
+
+    def ask(name: str) -> None:
+        together.wait(10)
+        device.compile_cached(name, lambda: build(name))
+
+    threads = [threading.Thread(target=ask, args=(f"k{i}",)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert most == [1]

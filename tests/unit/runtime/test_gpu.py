@@ -12,8 +12,9 @@ from zeroset.errors import DeviceError, DeviceLostError
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Type, atomic, if_, load, store
 from zeroset.runtime import Counted, get_device, registry
 from zeroset.runtime.cache import Cache
-from zeroset.runtime.gpu import GpuDevice, adapter
+from zeroset.runtime.gpu import adapter
 from zeroset.runtime.gpu.calls import ROW, Layout, grid, head
+from zeroset.runtime.gpu.device import GpuDevice
 from zeroset.runtime.gpu.probe import judge, operands, run_probe
 from zeroset.runtime.interp import InterpreterDevice
 

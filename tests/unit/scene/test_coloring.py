@@ -83,7 +83,7 @@ def test_the_short_form_and_files_without_any() -> None:
         ('[material.coloring]\nby = "x"\nmap = "viridis"', 4, "lagoon is much like it"),
         ('[material.coloring]\nby = "x"\nrange = [2, 1]', 4, "begin below its end"),
         ('[material.coloring]\nby = "x"\nrnage = [1, 2]', 4, "did you mean range"),
-        ("[material]\ncoloring = 3", 3, "a coloring must be"),
+        ("[material]\ncoloring = 3", 3, "coloring must be text"),
     ],
 )
 def test_mistakes_are_named_with_file_and_line(text: str, line: int, said: str) -> None:

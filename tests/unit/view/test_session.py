@@ -15,7 +15,7 @@ from PIL import Image
 
 import zeroset as zs
 from zeroset.rendering.frame import settle
-from zeroset.view import orbit
+from zeroset.view import orbit, painting
 from zeroset.view.log import Log
 from zeroset.view.session import Session
 from zeroset.view.show import scene_of, start
@@ -75,6 +75,32 @@ def test_the_picture_at_rest_is_what_render_draws(driver: Driver) -> None:
     assert np.array_equal(picture.pixels[..., :3], zs.render(state.scene, SIZE).pixels)
     assert picture.shot.size == SIZE
     assert picture.certified
+
+
+def test_light_is_drawn_in_full_at_rest_and_cheaper_while_it_moves(driver: Driver, tmp_path: Path) -> None:
+    driver.rest()
+    glass = zs.Material(opacity=0.5, ior=1.25, reflectance=0.25)
+    driver.change(shadows=True, environment=zs.Environment("room"), material=glass, antialias=4)
+    asked: list[dict[str, Any]] = []
+    with pytest.MonkeyPatch.context() as patched:
+        draw = painting.render
+        patched.setattr(painting, "render", lambda *args, **options: (asked.append(options), draw(*args, **options))[1])
+        driver.rest()
+    seen = [(one["draft"], one["antialias"], one["depth"]) for one in asked]
+    assert set(seen) == {(True, 1, painting.DRAFT_DEPTH), (False, 4, None)}
+    assert seen[-1][0] is False
+    picture, scene = driver.session.picture, driver.session.state.scene
+    assert picture is not None
+    assert np.array_equal(picture.pixels[..., :3], zs.render(scene, SIZE, device="cpu", antialias=4).pixels)
+    # It is saved so too, and stays for another surface.
+    place = tmp_path / "picture.png"
+    driver.session.state = driver.session.state.ask("save-picture", f"{place}\n")
+    driver.until(lambda s: place.exists())
+    assert np.array_equal(np.asarray(Image.open(place)), picture.pixels[..., :3])
+    driver.session.state = driver.session.state.ask("gallery", "torus")
+    driver.until(lambda s: s.state.surface.name == "torus")
+    after = driver.session.state
+    assert (after.shadows, after.environment, after.material) == (True, zs.Environment("room"), glass)
 
 
 def test_the_last_good_picture_stays_while_the_formula_is_wrong(driver: Driver, tmp_path: Path) -> None:
@@ -215,12 +241,14 @@ def test_scene_and_snippets(driver: Driver, tmp_path: Path) -> None:
     copied: list[str] = []
     driver.session.clipboard = lambda text: copied.append(text) is None
     place = tmp_path / "scene.toml"
+    driver.change(shadows=True, environment=zs.Environment("sky", 0.5))
     state = driver.session.state
     driver.session.state = state.ask("save-scene", str(place)).ask("copy-python").ask("copy-command")
     driver.until(lambda s: place.exists())
     scene = zs.load(place)
     assert scene.surface.field.digest == state.surface.field.digest
-    assert (scene.camera, scene.lights, scene.background) == (state.camera, state.lights, state.background)
+    assert replace(scene, surface=state.surface) == state.scene
+    assert (scene.shadows, scene.environment) == (True, zs.Environment("sky", 0.5))
     assert copied[0].startswith("import zeroset")
     assert "zeroset render" in copied[1]
     assert driver.session.snippet == copied[1]

@@ -19,6 +19,7 @@ from zeroset.view import snippet
 from zeroset.view.state import State, opened
 
 SIZE = (48, 40)
+GLASS = zs.Material(opacity=0.25, ior=1.25, reflectance=0.125)
 
 
 def plain() -> State:
@@ -44,12 +45,17 @@ def states() -> dict[str, State]:
         "arrays": opened(Scene(arrays), "", resolve_method("auto"), "auto", None),
         "off centre": opened(Scene(moved), "", resolve_method("auto"), "auto", 0.001),
         "box": opened(Scene(boxed, zs.Camera(height=3.0)), "", zs.methods.Affine(axis="k", delta=0.5), "auto", None),
+        "shadows": replace(plain(), shadows=True, lights=(light,), antialias=4),
+        "sky": replace(plain(), environment=zs.Environment("sky")),
+        "glass": replace(plain(), environment=zs.Environment("room", 1.5), material=GLASS),
         "sampled": replace(plain(), method=zs.methods.AdaptiveMarchingPoints(steps=50, silhouettes=False)),
     }
 
 
 def wanted(state: State) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
-    return zs.render(state.scene, SIZE, method=state.method, tolerance=state.tolerance).pixels
+    return zs.render(
+        state.scene, SIZE, method=state.method, tolerance=state.tolerance, antialias=state.antialias
+    ).pixels
 
 
 @pytest.mark.parametrize("name", states())

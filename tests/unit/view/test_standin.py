@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -14,7 +15,7 @@ from zeroset.errors import DeviceError
 from zeroset.scene.scene import Scene
 from zeroset.view import standin
 from zeroset.view.painting import Shot
-from zeroset.view.standin import StandIn
+from zeroset.view.standin import StandIn, structure
 
 SURFACE = zs.surface("x^2 + y^2 + a*z^2 = 1", {"a": 1.0}, bounds=1.5)
 SHOT = Shot(Scene(SURFACE), (40, 30), zs.methods.Auto(), "gpu", None, "none", moving=True)
@@ -51,6 +52,33 @@ def test_the_gpu_takes_over_when_it_is_ready() -> None:
     assert stand_in.placed(replace(SHOT, method=zs.methods.Affine()), compile=False).device == "cpu"
     assert stand_in.trouble == ""
     assert stand_in.close(30)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"shadows": True},
+        {"environment": zs.Environment("sky")},
+        {"material": zs.Material(opacity=0.5)},
+        {"material": zs.Material(reflectance=0.5)},
+        {"lights": (zs.Light(position=(0, 0, 3)), zs.Light())},
+    ],
+    ids=lambda changes: "-".join(map(str, changes)),
+)
+def test_other_light_is_other_kernels(changes: dict[str, Any]) -> None:
+    assert structure(replace(SHOT, scene=replace(SHOT.scene, **changes))) != structure(SHOT)
+    assert structure(replace(SHOT, antialias=4)) != structure(SHOT)
+    # More of it, and whether it moves, are numbers.
+    shot = replace(SHOT, scene=Scene(SURFACE, material=zs.Material(opacity=0.5)), antialias=4)
+    other = replace(shot, scene=Scene(SURFACE, material=zs.Material(opacity=0.25)), antialias=16, moving=False)
+    assert structure(other) == structure(shot)
+
+
+def test_a_gpu_is_made_ready_for_pictures_that_move_and_that_rest(monkeypatch: pytest.MonkeyPatch) -> None:
+    painted = []
+    monkeypatch.setattr(standin, "paint", lambda shot, superseded: painted.append(shot))
+    standin.compiled(replace(SHOT, antialias=4), lambda: False)
+    assert sorted((shot.moving, shot.antialias) for shot in painted) == [(False, 4), (True, 4)]
 
 
 def test_where_the_gpu_cannot_the_cpu_goes_on_and_says_why() -> None:

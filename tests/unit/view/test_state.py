@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 import zeroset as zs
@@ -66,6 +68,18 @@ def test_the_play_key_starts_the_first_and_stops_all() -> None:
     assert states.play_or_pause(stopped).playing
     plain = opened("x^2 + y^2 + w*z^2 = 1", w=0.5)
     assert states.play_or_pause(plain).motions["w"].playing, "w is a parameter like any other"
+
+
+def test_a_window_shows_all_of_a_scene() -> None:
+    glass, around = zs.Material(opacity=0.5, ior=1.5, reflectance=0.25), zs.Environment("park_{face}.png", 2.0)
+    surface, camera = zs.surface("x^2 + y^2 + z^2 = 4", bounds=3), zs.Camera(eye=(0, -9, 0))
+    scene = Scene(surface, camera, glass, (zs.Light(),), (0.5, 0.5, 0.5), True, around)
+    state = states.opened(scene, "", resolve_method("auto"), "cpu", None)
+    assert state.scene == scene
+    assert state.picture == around
+    assert opened().picture is None
+    sky = states.opened(replace(scene, environment=zs.Environment("sky")), "", resolve_method("auto"), "cpu", None)
+    assert sky.picture is None
 
 
 def test_a_window_draws_inside_bounds_of_its_own() -> None:

@@ -20,6 +20,7 @@ from zeroset.export.film.camera_path import Keys, turned
 from zeroset.export.film.path import Moment, Path, as_path
 from zeroset.scene.bounds import Ball, Bounds, number
 from zeroset.scene.camera import Camera, fit_camera
+from zeroset.scene.pictures import picture_bytes
 from zeroset.scene.scene import Scene, as_scene
 from zeroset.scene.several import Drawable, Several
 from zeroset.scene.surface import Surface, surface
@@ -177,7 +178,11 @@ def digest(scenes: Sequence[Scene]) -> str:
     from zeroset.scene.file import dumps
 
     # The first scene in full holds what is common to all; the others differ in values and cameras alone.
-    made = hashlib.sha256(dumps(scenes[0]).encode())
+    made = hashlib.sha256(dumps(scenes[0]).encode(errors="surrogateescape"))
+    # The scene names its pictures; frames depend on what is in them.
+    around = scenes[0].environment
+    for path in () if around is None else around.files():
+        made.update(picture_bytes(path))
     for scene in scenes:
         for shape in scene.surface.surfaces:
             arrays = [(name, shape.arrays[name].tolist()) for name in sorted(shape.arrays)]

@@ -2,9 +2,6 @@
 
 ``adapter`` finds and opens one, ``stream`` collects work and hands it over, ``memory`` holds buffers, ``program`` makes
 pipelines of shaders and ``device`` puts them behind the ``Device`` contract. wgpu is imported here and in the window,
-nowhere else, and not before a GPU is asked for.
+nowhere else, and not before a GPU is asked for. This file imports nothing: looking whether there may be a GPU at all
+(``adapter``) must cost a process without one nothing.
 """
-
-from zeroset.runtime.gpu.device import GpuDevice
-
-__all__ = ["GpuDevice"]

@@ -58,7 +58,7 @@ class GpuDevice:
         """Compile for a target from now on."""
         self.target = target
         stamp = f"{target.identity}|{source_stamp()}"
-        self._programs = Programs(self.cache, stamp, self._translate, self._place)
+        self._programs = Programs(self.cache, stamp, self._write, self._translate, self._place)
         self._counter: GpuProgram | None = None
 
     def _measure(self) -> Arithmetic:
@@ -91,14 +91,16 @@ class GpuDevice:
         """The program of a kernel; see ``Device.compile``."""
         return self._programs.of(kernel)
 
-    def compile_cached(self, key: str, build: Callable[[], Kernel]) -> GpuProgram:
-        """The program under a key; see ``Device.compile_cached``."""
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> GpuProgram:
+        """The program under a key; see ``Device.compile_cached``. Drivers know no hurry."""
         return self._programs.under(key, build)
 
-    def _translate(self, kernel: Kernel) -> Compiled:
+    def _write(self, kernel: Kernel) -> str:
         from zeroset.kernel.passes import optimise
 
-        text = to_wgsl(optimise(kernel), self.target)
+        return to_wgsl(optimise(kernel), self.target)
+
+    def _translate(self, kernel: Kernel, text: str, quick: bool) -> Compiled:
         return Compiled(Signature.of(kernel), 1, "wgsl", text.encode())
 
     def _place(self, compiled: Compiled) -> GpuProgram:
@@ -141,6 +143,10 @@ class GpuDevice:
         """Hand over what was asked for; nobody waits."""
         with self._busy:
             self.stream.submit()
+
+    def lanes(self, count: int | Counted) -> int | None:
+        """How many lanes a count is; None for what the GPU has counted, which it keeps to itself."""
+        return count if isinstance(count, int) else None
 
     def _record(
         self, pipeline: Pipeline, count: int | Counted, uniforms: bytes, buffers: tuple[GpuBuffer, ...]

@@ -1,4 +1,4 @@
-"""The key light: a small ball to drag it on, and how strong it is."""
+"""The key light: a small ball to drag it on, how strong it is, and shadows; and how smooth edges are at rest."""
 
 from __future__ import annotations
 
@@ -14,18 +14,35 @@ from zeroset.scene.light import Light
 from zeroset.view import orbit
 from zeroset.view.panels.context import Context
 from zeroset.view.state import State
-from zeroset.view.widgets import checkbox, color, packed, slider
+from zeroset.view.widgets import checkbox, choice, color, packed, slider
 
 RADIUS = 46.0
+EDGES = {1: "one ray", 4: "4 rays", 16: "16 rays", 64: "64 rays"}
+"""Rays of each pixel at an edge, and what they are called."""
 
 
 def draw(state: State, context: Context) -> State:
-    """The ball, and the light's properties."""
+    """The ball and the light's properties, shadows and edges."""
     imgui = context.imgui
-    if not state.lights:
-        if imgui.button("add a light"):
-            state = replace(state, lights=(Light(),))
-        return state
+    if state.lights:
+        state = _key(imgui, state)
+    elif imgui.button("add a light"):
+        state = replace(state, lights=(Light(),))
+    shadows = checkbox(imgui, "shadows", state.shadows, "what is between a point and a light takes it away")
+    if shadows != state.shadows:
+        state = replace(state, shadows=shadows)
+    return _edges(imgui, state)
+
+
+def _edges(imgui: Any, state: State) -> State:
+    known = EDGES if state.antialias in EDGES else {**EDGES, state.antialias: f"{state.antialias} rays"}
+    names = tuple(known.values())
+    hint = "rays of a pixel at a silhouette or a crease, once nothing moves"
+    rays = tuple(known)[names.index(choice(imgui, "edges", known[state.antialias], names, hint))]
+    return state if rays == state.antialias else replace(state, antialias=rays)
+
+
+def _key(imgui: Any, state: State) -> State:
     key, *others = state.lights
     key = _ball(imgui, key, state.camera)
     imgui.same_line()

@@ -1,0 +1,101 @@
+"""The programs of one structure, made side by side while the first of them are already running.
+
+Whoever draws asks for a program by its name and waits only for that one. Kernels are traced one after the other, in
+the order in which they were asked for, while the compilers of those before are at work on all cores.
+
+For a first picture most of the time goes into compiling, so programs that run but shortly are made in a hurry. Where
+more pictures follow, they are made again in the background, well, and take the quick ones' place when they are there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
+
+from zeroset.kernel import Kernel
+from zeroset.runtime import Device, Program
+
+
+class Making:
+    """Programs by name: made, being made, or to be made.
+
+    Args:
+        device: makes them.
+    """
+
+    def __init__(self, device: Device) -> None:
+        self._device = device
+        self._recipes: dict[str, tuple[str, Callable[[], Kernel]]] = {}
+        self._programs: dict[str, Program] = {}
+        self._coming: dict[str, Future[Program]] = {}
+        self._quick: set[str] = set()
+        self._better: dict[str, Future[Program]] = {}
+
+    def add(self, name: str, key: str, build: Callable[[], Kernel]) -> None:
+        """Say how a program is made: the key that it is kept under on disk, and what traces its kernel."""
+        self._recipes[name] = key, build
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._recipes
+
+    def kernel(self, name: str) -> Kernel:
+        """The kernel of a program as it is traced."""
+        return self._recipes[name][1]()
+
+    def begin(self, names: Iterable[str], at_once: int, quick: Iterable[str] = ()) -> None:
+        """Begin to make what is neither there nor coming.
+
+        Args:
+            names: of programs, in the order in which they are traced.
+            at_once: how many may be under way.
+            quick: those of them that are made in a hurry.
+        """
+        missing = [name for name in names if name not in self._programs and name not in self._coming]
+        hurried = set(quick).intersection(missing)
+        self._quick |= hurried
+        self._coming |= _side_by_side({name: partial(self._made, name, name in hurried) for name in missing}, at_once)
+
+    def improve(self) -> None:
+        """Begin to make again, one by one, what was made in a hurry."""
+        self._better |= _side_by_side({name: partial(self._made, name, False) for name in sorted(self._quick)}, 1)
+        self._quick.clear()
+
+    def pending(self, name: str) -> bool:
+        """Whether a program is being made and not there yet."""
+        coming = self._coming.get(name)
+        return coming is not None and not coming.done()
+
+    def get(self, name: str) -> Program:
+        """A program; waits for it, or makes it here where nobody has begun."""
+        waiting = self._coming.pop(name, None)
+        if waiting is not None:
+            self._programs[name] = waiting.result()
+        elif name not in self._programs:
+            self._programs[name] = self._made(name, False)
+        better = self._better.get(name)
+        if better is not None and better.done():
+            del self._better[name]
+            self._programs[name] = better.result()
+        return self._programs[name]
+
+    def settle(self) -> None:
+        """Wait until all that is under way is there, and nothing is left that was made in a hurry."""
+        self.improve()
+        for better in tuple(self._better.values()):
+            better.result()
+        for name in (*self._coming, *self._better):
+            self.get(name)
+
+    def _made(self, name: str, quick: bool) -> Program:
+        return self._device.compile_cached(*self._recipes[name], quick)
+
+
+def _side_by_side(work: dict[str, Callable[[], Program]], at_once: int) -> dict[str, Future[Program]]:
+    """Begin several things, no more than so many at once."""
+    if not work:
+        return {}
+    pool = ThreadPoolExecutor(min(at_once, len(work)))
+    begun = {name: pool.submit(make) for name, make in work.items()}
+    pool.shutdown(wait=False)
+    return begun

@@ -1,0 +1,125 @@
+"""What clipping calls free of roots, against exact polynomials along the ray."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import fmpq, fmpq_poly
+
+import zeroset as zs
+from zeroset.kernel import F32, U32, KernelBuilder, constant, load, store
+from zeroset.runtime import get_device
+from zeroset.solve.clipping import can_clip, clipped
+from zeroset.solve.field import Lowered, Ray
+from zeroset.solve.problem import Problem
+
+Array = np.ndarray[Any, Any]
+FAR = 6.0
+TOLERANCE = 1e-3
+FORMULAS: dict[str, Callable[..., Any]] = {
+    "plane": lambda x, y, z: 2 * x - 3 * y + z - 1,
+    "ball": lambda x, y, z: x**2 + y**2 + z**2 - 1,
+    "cubic": lambda x, y, z: x**3 - 3 * x * y**2 + z**2 - x + 1,
+    "tangle": lambda x, y, z: x**4 - 5 * x**2 + y**4 - 5 * y**2 + z**4 - 5 * z**2 + 12,
+    "quintic": lambda x, y, z: x**5 - y**4 + 3 * z**3 * x**2 - x * y * z + 1,
+    "sextic": lambda x, y, z: (
+        4 * (3 * x**2 - y**2) * (3 * y**2 - z**2) * (3 * z**2 - x**2) - 5 * (x**2 + y**2 + z**2 - 1) ** 2
+    ),
+    "double": lambda x, y, z: (x**2 + y**2 + z**2 - 1) ** 2,
+}
+
+
+def clip(formula: Callable[..., Any] | str, origins: Array, directions: Array) -> tuple[Array, Array]:
+    """Where a search may start along each ray from 0 to FAR, and whether it need not."""
+    surface = zs.surface(formula, bounds=10)
+    with KernelBuilder("clip") as builder:
+        lane = builder.index()
+        o, d = (tuple(load(builder.buffer(f"{n}{axis}", F32), lane) for axis in "xyz") for n in "od")
+        far, tolerance = constant(FAR, F32), constant(TOLERANCE, F32)
+        problem = Problem(Lowered(surface.field, builder), Ray(o, d), constant(0.0, F32), far, tolerance, far)
+        ahead, none = clipped(problem)
+        store(builder.buffer("start", F32, writable=True), lane, ahead.t0)
+        store(builder.buffer("none", U32, writable=True), lane, none.convert(U32))
+    count = len(origins)
+    buffers: dict[str, Array] = {"start": np.zeros(count, np.float32), "none": np.zeros(count, np.uint32)}
+    buffers |= {f"o{axis}": np.ascontiguousarray(origins[:, i]) for i, axis in enumerate("xyz")}
+    buffers |= {f"d{axis}": np.ascontiguousarray(directions[:, i]) for i, axis in enumerate("xyz")}
+    get_device("cpu").compile(builder.kernel).run(count, {}, buffers)
+    return buffers["start"].astype(float), buffers["none"] != 0
+
+
+def first_root(formula: Callable[..., Any], origin: Array, direction: Array) -> float:
+    """The first root from 0 to FAR; infinity where there is none. The polynomial is exact."""
+    t = fmpq_poly([0, 1])
+    p = formula(*(fmpq_poly([_exact(o)]) + _exact(d) * t for o, d in zip(origin, direction, strict=True)))
+    if p.degree() < 1:
+        return np.inf if p != 0 else 0.0
+    real = [float(root.real) for root, _ in p.complex_roots() if abs(float(root.imag)) < 1e-9]
+    return min((r for r in real if 0 <= r <= FAR), default=np.inf)
+
+
+def _exact(value: float) -> fmpq:
+    exact = Fraction(float(value))
+    return fmpq(exact.numerator, exact.denominator)
+
+
+def rays(count: int, seed: int) -> tuple[Array, Array]:
+    rng = np.random.default_rng(seed)
+    origins = rng.normal(size=(count, 3)) * 1.5
+    directions = rng.normal(size=(count, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    return origins.astype(np.float32), directions.astype(np.float32)
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_what_is_passed_over_holds_no_root(name: str) -> None:
+    formula = FORMULAS[name]
+    origins, directions = rays(300, 5)
+    start, none = clip(formula, origins, directions)
+    roots = np.array([first_root(formula, o, d) for o, d in zip(origins, directions, strict=True)])
+    assert not np.any(none & np.isfinite(roots))
+    assert np.all(start <= roots)
+    # And it is worth its while: most rays without a root are known to have none, the others come close to theirs.
+    assert np.mean(none[np.isinf(roots)]) > 0.85
+    close = 40 if name != "double" else 100
+    assert np.median(roots[np.isfinite(roots)] - start[np.isfinite(roots)]) < close * TOLERANCE
+
+
+def test_rays_that_leave_a_surface_get_off_it() -> None:
+    _, normals = rays(500, 6)
+    _, directions = rays(500, 7)
+    facing = np.sum(normals * directions, axis=1)
+    directions = np.where((facing < 0)[:, None], -directions, directions)
+    # From a little outside a ball nothing more is met; from a little inside, the far side is.
+    outside = (normals * np.float32(1 + TOLERANCE)).astype(np.float32)
+    _, none = clip(FORMULAS["ball"], outside, directions)
+    assert np.mean(none) > 0.97
+    inside = (normals * np.float32(1 - TOLERANCE)).astype(np.float32)
+    start, none = clip(FORMULAS["ball"], inside, -directions)
+    assert not none.any()
+    roots = np.array([first_root(FORMULAS["ball"], o, -d) for o, d in zip(inside, directions, strict=True)])
+    assert np.all(start <= roots)
+    assert np.median((roots - start)[roots > 0.2]) < 40 * TOLERANCE
+
+
+def test_what_is_no_polynomial_of_low_degree_is_left_alone() -> None:
+    for formula in ("sin(x) + y - z", "x^9 - y", "min(x, y) - z"):
+        with KernelBuilder("k") as builder:
+            zero, one = constant(0.0, F32), constant(1.0, F32)
+            lowered = Lowered(zs.surface(formula, bounds=1).field, builder)
+            problem = Problem(lowered, Ray((zero,) * 3, (one,) * 3), zero, one, one, one)
+            assert not can_clip(problem)
+            assert clipped(problem)[0] is problem
+
+
+def test_numbers_beyond_all_bounds_let_nothing_pass() -> None:
+    origins = np.full((8, 3), 1e30, np.float32)
+    directions = np.full((8, 3), -1e30, np.float32)
+    origins[4:] = np.nan
+    start, none = clip(FORMULAS["sextic"], origins, directions)
+    assert not none.any()
+    assert np.all(start <= 0.0)
