@@ -1,0 +1,210 @@
+"""A paper's table once more, on this machine: each row's surface with each column's settings, and as a user gets it.
+
+The papers' methods run as the papers run them: one search a ray in single precision, no second look and no thin parts.
+``auto`` is the picture that ``zs.render`` makes when nothing is asked for, as large as the paper's and from the same
+place.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from statistics import median
+from typing import Any
+
+from zeroset.bench.devices import Devices
+from zeroset.bench.light import SUN
+from zeroset.bench.printed import MESHING, PrintedTable, Row, Setting, find_tables
+from zeroset.bench.steady import frame_times
+from zeroset.bench.timing import Times
+from zeroset.errors import ZerosetError
+from zeroset.export.marching.timing import time_extraction
+from zeroset.rendering.render import render
+from zeroset.scene.camera import Camera, parse_camera
+from zeroset.scene.surface import Surface
+from zeroset.solve.method import METHODS, Method
+from zeroset.surfaces import entry
+
+UNKNOWN = "the gallery has no such surface"
+
+Find = Callable[[str], Surface]
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """What one setting took for one row.
+
+    Attributes:
+        setting: the column; ``"auto"`` for the default method.
+        size: pixels along a side; 0 for a mesh.
+        figures: the paper's, by hardware; none where it has none.
+        wall: milliseconds; None where it could not be done.
+        gpu: milliseconds by the GPU's own clock; None without one.
+        steps: evaluations a ray, the mean over those that were searched; None where the paper says nothing of them.
+        error: why it could not be done, or an empty string.
+    """
+
+    setting: str
+    size: int
+    figures: Mapping[str, float] = field(default_factory=dict)
+    wall: Times | None = None
+    gpu: Times | None = None
+    steps: float | None = None
+    error: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class RowCost:
+    """One row of a group of a table.
+
+    Attributes:
+        table: the paper's.
+        group: of its settings.
+        row: what was drawn.
+        cells: one for each of the group's settings.
+        auto: the default method, one for each size among the settings; none where the gallery has no such surface.
+    """
+
+    table: PrintedTable
+    group: str
+    row: Row
+    cells: tuple[Cell, ...] = ()
+    auto: tuple[Cell, ...] = ()
+
+
+def measure_row(table: PrintedTable, row: Row, find: Find, devices: Devices, seconds: float) -> Iterator[RowCost]:
+    """Measure one row of a paper's table, a group of settings at a time.
+
+    Args:
+        table: the paper's.
+        row: one of its rows.
+        find: gives a surface of the gallery.
+        devices: where to run.
+        seconds: how long each of its frames is repeated.
+    """
+    for group in table.groups:
+        found = [(setting, figures) for setting, figures in table.figures(row) if setting.group == group]
+        if not row.surface:
+            cells = tuple(Cell(s.name, _size(table, s), figures, error=UNKNOWN) for s, figures in found)
+            yield RowCost(table, group, row, cells)
+            continue
+        surface = find(row.surface)
+        cells = tuple(_cell(table, row, surface, *each, devices, seconds) for each in found)
+        drawn = dict.fromkeys((_size(table, s), s.shadows) for s, _ in found if s.method != MESHING)
+        auto = tuple(_auto(surface, size, _place(row, surface, shadows), devices, seconds) for size, shadows in drawn)
+        yield RowCost(table, group, row, cells, auto)
+
+
+def _size(table: PrintedTable, setting: Setting) -> int:
+    """Pixels along a side; none of a mesh."""
+    return 0 if setting.method == MESHING else setting.size or table.size
+
+
+def _cell(
+    table: PrintedTable,
+    row: Row,
+    surface: Surface,
+    setting: Setting,
+    figures: Mapping[str, float],
+    devices: Devices,
+    seconds: float,
+) -> Cell:
+    size = _size(table, setting)
+    try:
+        if not size:
+            taken = time_extraction(surface, setting.cells, devices.steady, **setting.options)  # type: ignore[arg-type]
+            return Cell(setting.name, size, figures, Times(median(taken), min(taken), len(taken)))
+        method = method_of(table, row, setting)
+        exponent = setting.epsilon or row.epsilon
+        draw = partial(
+            render,
+            surface,
+            size,
+            method=method,
+            device=devices.steady,
+            tolerance=2.0**exponent if exponent else None,
+            draft=True,
+            **_place(row, surface, setting.shadows),
+        )
+        wall, gpu = frame_times(draw, devices, seconds)
+        steps = _mean_steps(draw) if row.iterations else None
+    except ZerosetError as error:
+        return Cell(setting.name, size, figures, error=str(error).splitlines()[0])
+    return Cell(setting.name, size, figures, wall, gpu, steps)
+
+
+def _auto(surface: Surface, size: int, place: Mapping[str, Any], devices: Devices, seconds: float) -> Cell:
+    draw = partial(render, surface, size, device=devices.steady, **place)
+    try:
+        wall, gpu = frame_times(draw, devices, seconds)
+    except ZerosetError as error:
+        return Cell("auto", size, error=str(error).splitlines()[0])
+    return Cell("auto", size, wall=wall, gpu=gpu)
+
+
+def _place(row: Row, surface: Surface, shadows: bool) -> dict[str, Any]:
+    """Options of ``render`` for the view and the light, which the default method shares with the paper's."""
+    options: dict[str, Any] = {"lights": SUN, "shadows": True} if shadows else {}
+    if row.z:
+        options["camera"] = farther(parse_camera(surface.camera, surface.fitted), row.z)
+    return options
+
+
+def farther(camera: Camera, distance: float) -> Camera:
+    """A camera gone back from its target by some world length.
+
+    Example:
+        >>> farther(Camera(eye=(0.0, -5.0, 0.0)), 4.0).eye
+        (0.0, -9.0, 0.0)
+    """
+    scale = 1.0 + distance / math.dist(camera.eye, camera.target)
+    x, y, z = (to + (e - to) * scale for e, to in zip(camera.eye, camera.target, strict=True))
+    return dataclasses.replace(camera, eye=(x, y, z))
+
+
+def method_of(table: PrintedTable, row: Row, setting: Setting) -> Method:
+    """The ray method of one setting for one row, with its options.
+
+    Example:
+        >>> (table,) = find_tables(["sn10-2"])
+        >>> method_of(table, table.rows[0], table.settings[1])
+        AdaptiveMarchingPoints(offset=0.0, steps=100, test='taylor', tau1=0.1, tau2=1.0, epsilon=0.1, silhouettes=True)
+    """
+    options = dict(setting.options)
+    if setting.steps == "hand":
+        options["steps"] = row.steps or hand_steps(table.steps_of, row.surface)
+    elif setting.steps and setting.steps != "formula":
+        options["steps"] = setting.steps
+    return METHODS[setting.method or row.method](**options)  # type: ignore[arg-type]
+
+
+def hand_steps(id_: str, name: str) -> int:
+    """The steps that a table has for a surface, by hand.
+
+    Where it has none: the most that it has for a surface of the same order, or of the next one that it has. What is no
+    polynomial counts as an order of its own.
+
+    Example:
+        >>> hand_steps("sn10-2", "goursat"), hand_steps("sn10-2", "tooth")
+        (24, 32)
+    """
+    (table,) = find_tables([id_])
+    known = {row.surface: row.steps for row in table.rows}
+    if name in known:
+        return known[name]
+    order = entry(name).degree
+    by_order: dict[int, int] = {}
+    for other, steps in known.items():
+        degree = entry(other).degree
+        by_order[degree] = max(steps, by_order.get(degree, 0))
+    return by_order[min(degree for degree in by_order if degree >= order)]
+
+
+def _mean_steps(draw: Callable[[], Any]) -> float:
+    """Evaluations a ray, the mean over rays that were searched at all."""
+    steps = draw().aov("steps")
+    searched = steps[steps > 0]
+    return float(searched.mean()) if searched.size else 0.0
