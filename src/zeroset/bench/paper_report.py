@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from zeroset.bench.agreement import APART
 from zeroset.bench.machine import Machine
 from zeroset.bench.printed import MESHING, PrintedTable, Row, Setting
 from zeroset.bench.rerun import RowCost
@@ -145,9 +146,31 @@ def _notes(table: PrintedTable, costs: Sequence[RowCost], machine: Machine) -> t
         "The papers' methods run as the papers run them: one search a ray in single precision.",
         *table.notes,
         *((table.surfaces,) if table.surfaces else ()),
+        *_disagreements(costs),
         *_failures(costs),
         str(machine),
     )
+
+
+def _disagreements(costs: Sequence[RowCost]) -> Iterator[str]:
+    """How much of their pictures is not what the default method proves, one line for all settings that draw."""
+    said = []
+    for name in dict.fromkeys(cell.setting for cost in costs for cell in cost.cells):
+        found = [
+            (cell.other, cost.row.title)
+            for cost in costs
+            for cell in cost.cells
+            if cell.setting == name and cell.other is not None
+        ]
+        if found:
+            worst, where = max(found)
+            mean = sum(share for share, _ in found) / len(found)
+            said.append(f"{name} {100 * mean:.2g} %, at most {100 * worst:.2g} % ({where})")
+    if said:
+        yield (
+            f"Pixels that auto proves to be different (surface or none, or {100 * APART:g} % of the bounds' extent "
+            f"apart), the mean over rows: {'; '.join(said)}."
+        )
 
 
 def _failures(costs: Sequence[RowCost]) -> list[str]:

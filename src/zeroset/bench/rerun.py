@@ -7,14 +7,14 @@ place.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from statistics import median
 from typing import Any
 
+from zeroset.bench.agreement import APART, Depth, other_pixels
 from zeroset.bench.devices import Devices
 from zeroset.bench.light import SUN
 from zeroset.bench.printed import MESHING, PrintedTable, Row, Setting, find_tables
@@ -22,6 +22,7 @@ from zeroset.bench.steady import frame_times
 from zeroset.bench.timing import Times
 from zeroset.errors import ZerosetError
 from zeroset.export.marching.timing import time_extraction
+from zeroset.rendering.image import Image
 from zeroset.rendering.render import render
 from zeroset.scene.camera import Camera, parse_camera
 from zeroset.scene.surface import Surface
@@ -43,7 +44,8 @@ class Cell:
         figures: the paper's, by hardware; none where it has none.
         wall: milliseconds; None where it could not be done.
         gpu: milliseconds by the GPU's own clock; None without one.
-        steps: evaluations a ray, the mean over those that were searched; None where the paper says nothing of them.
+        steps: evaluations a ray, the mean over those that were searched; None where nothing was drawn.
+        other: the share of pixels that the default method proves to be different; None where nothing was drawn.
         error: why it could not be done, or an empty string.
     """
 
@@ -53,6 +55,7 @@ class Cell:
     wall: Times | None = None
     gpu: Times | None = None
     steps: float | None = None
+    other: float | None = None
     error: str = ""
 
 
@@ -85,72 +88,90 @@ def measure_row(table: PrintedTable, row: Row, find: Find, devices: Devices, sec
         devices: where to run.
         seconds: how long each of its frames is repeated.
     """
+    again = _Again(table, row, find(row.surface), devices, seconds) if row.surface else None
     for group in table.groups:
         found = [(setting, figures) for setting, figures in table.figures(row) if setting.group == group]
-        if not row.surface:
-            cells = tuple(Cell(s.name, _size(table, s), figures, error=UNKNOWN) for s, figures in found)
+        if again is None:
+            cells = tuple(Cell(setting.name, 0, figures, error=UNKNOWN) for setting, figures in found)
             yield RowCost(table, group, row, cells)
             continue
-        surface = find(row.surface)
-        cells = tuple(_cell(table, row, surface, *each, devices, seconds) for each in found)
-        drawn = dict.fromkeys((_size(table, s), s.shadows) for s, _ in found if s.method != MESHING)
-        auto = tuple(_auto(surface, size, _place(row, surface, shadows), devices, seconds) for size, shadows in drawn)
-        yield RowCost(table, group, row, cells, auto)
+        cells = tuple(again.cell(setting, figures) for setting, figures in found)
+        drawn = dict.fromkeys((again.size(s), s.shadows) for s, _ in found if s.method != MESHING)
+        yield RowCost(table, group, row, cells, tuple(again.auto(*each) for each in drawn))
 
 
-def _size(table: PrintedTable, setting: Setting) -> int:
-    """Pixels along a side; none of a mesh."""
-    return 0 if setting.method == MESHING else setting.size or table.size
+class _Again:
+    """One row's surface, drawn with any setting."""
 
+    def __init__(self, table: PrintedTable, row: Row, surface: Surface, devices: Devices, seconds: float) -> None:
+        self._table = table
+        self._row = row
+        self._surface = surface
+        self._devices = devices
+        self._seconds = seconds
+        self._truth: dict[int, Depth] = {}
 
-def _cell(
-    table: PrintedTable,
-    row: Row,
-    surface: Surface,
-    setting: Setting,
-    figures: Mapping[str, float],
-    devices: Devices,
-    seconds: float,
-) -> Cell:
-    size = _size(table, setting)
-    try:
-        if not size:
-            taken = time_extraction(surface, setting.cells, devices.steady, **setting.options)  # type: ignore[arg-type]
-            return Cell(setting.name, size, figures, Times(median(taken), min(taken), len(taken)))
-        method = method_of(table, row, setting)
-        exponent = setting.epsilon or row.epsilon
-        draw = partial(
-            render,
-            surface,
-            size,
-            method=method,
-            device=devices.steady,
+    def size(self, setting: Setting) -> int:
+        """Pixels along a side; none of a mesh."""
+        return 0 if setting.method == MESHING else setting.size or self._table.size
+
+    def cell(self, setting: Setting, figures: Mapping[str, float]) -> Cell:
+        """One setting; an error is noted, not raised."""
+        made = Cell(setting.name, self.size(setting), figures)
+        try:
+            return replace(made, wall=self._mesh(setting)) if not made.size else self._frame(setting, made)
+        except ZerosetError as error:
+            return replace(made, error=str(error).splitlines()[0])
+
+    def auto(self, size: int, shadows: bool) -> Cell:
+        """The default method; an error is noted, not raised."""
+        try:
+            wall, gpu = self._times(self._draw(size, shadows))
+        except ZerosetError as error:
+            return Cell("auto", size, error=str(error).splitlines()[0])
+        return Cell("auto", size, wall=wall, gpu=gpu)
+
+    def _mesh(self, setting: Setting) -> Times:
+        options: Mapping[str, Any] = setting.options
+        taken = time_extraction(self._surface, setting.cells, self._devices.steady, **options)
+        return Times(median(taken), min(taken), len(taken))
+
+    def _frame(self, setting: Setting, cell: Cell) -> Cell:
+        exponent = setting.epsilon or self._row.epsilon
+        draw = self._draw(
+            cell.size,
+            setting.shadows,
+            method=method_of(self._table, self._row, setting),
             tolerance=2.0**exponent if exponent else None,
             draft=True,
-            **_place(row, surface, setting.shadows),
         )
-        wall, gpu = frame_times(draw, devices, seconds)
-        steps = _mean_steps(draw) if row.iterations else None
-    except ZerosetError as error:
-        return Cell(setting.name, size, figures, error=str(error).splitlines()[0])
-    return Cell(setting.name, size, figures, wall, gpu, steps)
+        wall, gpu = self._times(draw)
+        image = draw()
+        depth, steps = image.aov("depth"), image.aov("steps")
+        searched = steps[steps > 0]
+        return replace(
+            cell,
+            wall=wall,
+            gpu=gpu,
+            steps=float(searched.mean()) if searched.size else 0.0,
+            other=other_pixels(depth, self._certain(cell.size), APART * self._surface.fitted.extent),
+        )
 
+    def _certain(self, size: int) -> Depth:
+        """What the default method proves, one ray a pixel."""
+        if size not in self._truth:
+            self._truth[size] = self._draw(size, False, thin=False)().aov("depth")
+        return self._truth[size]
 
-def _auto(surface: Surface, size: int, place: Mapping[str, Any], devices: Devices, seconds: float) -> Cell:
-    draw = partial(render, surface, size, device=devices.steady, **place)
-    try:
-        wall, gpu = frame_times(draw, devices, seconds)
-    except ZerosetError as error:
-        return Cell("auto", size, error=str(error).splitlines()[0])
-    return Cell("auto", size, wall=wall, gpu=gpu)
+    def _draw(self, size: int, shadows: bool, **options: Any) -> Callable[[], Image]:
+        """A picture from the row's place, in the light that shadows need."""
+        place: dict[str, Any] = {"lights": SUN, "shadows": True} if shadows else {}
+        if self._row.z:
+            place["camera"] = farther(parse_camera(self._surface.camera, self._surface.fitted), self._row.z)
+        return partial(render, self._surface, size, device=self._devices.steady, **place, **options)
 
-
-def _place(row: Row, surface: Surface, shadows: bool) -> dict[str, Any]:
-    """Options of ``render`` for the view and the light, which the default method shares with the paper's."""
-    options: dict[str, Any] = {"lights": SUN, "shadows": True} if shadows else {}
-    if row.z:
-        options["camera"] = farther(parse_camera(surface.camera, surface.fitted), row.z)
-    return options
+    def _times(self, draw: Callable[[], Image]) -> tuple[Times, Times | None]:
+        return frame_times(draw, self._devices, self._seconds)
 
 
 def farther(camera: Camera, distance: float) -> Camera:
@@ -162,7 +183,7 @@ def farther(camera: Camera, distance: float) -> Camera:
     """
     scale = 1.0 + distance / math.dist(camera.eye, camera.target)
     x, y, z = (to + (e - to) * scale for e, to in zip(camera.eye, camera.target, strict=True))
-    return dataclasses.replace(camera, eye=(x, y, z))
+    return replace(camera, eye=(x, y, z))
 
 
 def method_of(table: PrintedTable, row: Row, setting: Setting) -> Method:
@@ -201,10 +222,3 @@ def hand_steps(id_: str, name: str) -> int:
         degree = entry(other).degree
         by_order[degree] = max(steps, by_order.get(degree, 0))
     return by_order[min(degree for degree in by_order if degree >= order)]
-
-
-def _mean_steps(draw: Callable[[], Any]) -> float:
-    """Evaluations a ray, the mean over rays that were searched at all."""
-    steps = draw().aov("steps")
-    searched = steps[steps > 0]
-    return float(searched.mean()) if searched.size else 0.0

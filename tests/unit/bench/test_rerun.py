@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NoReturn
 
 import pytest
+from tests.gpus import needs_gpu
 
 import zeroset as zs
 from zeroset.bench import rerun
@@ -16,6 +17,7 @@ from zeroset.bench.paper_report import ours, paper_report, times_as_fast
 from zeroset.bench.printed import PrintedTable, Row, find_tables, printed_tables
 from zeroset.bench.rerun import RowCost, hand_steps, measure_row, method_of
 from zeroset.bench.timing import Times
+from zeroset.errors import ZerosetError
 from zeroset.methods import AdaptiveMarchingPoints, Affine, Interval, MarchingPoints
 
 FIND = zs.gallery.__getitem__
@@ -60,13 +62,24 @@ def test_every_table_from_end_to_end(table: PrintedTable) -> None:
             assert all(str(figure) in cells for figure in cell.figures.values())
 
 
+@needs_gpu
+def test_a_row_on_a_gpu() -> None:
+    table, devices = _table("sn10-3"), Devices("gpu", None)
+    assert devices.gpu is not None
+    (cost,) = _measured(replace(table, size=16, rows=(_row(table, "goursat"),)), devices)
+    for cell in (*cost.cells, *cost.auto):
+        assert cell.error == ""
+        assert cell.wall is not None
+        assert (cell.gpu is None) == (devices.gpu.stream.clock is None)
+
+
 def _drawn(monkeypatch: pytest.MonkeyPatch, table: PrintedTable, row: Row) -> list[tuple[int, dict[str, Any]]]:
     """Size and options of everything that a row has drawn."""
     asked: list[tuple[int, dict[str, Any]]] = []
 
-    def once(draw: Any, devices: Devices, seconds: float) -> tuple[Times, None]:
+    def once(draw: Any, devices: Devices, seconds: float) -> NoReturn:
         asked.append((draw.args[1], draw.keywords))
-        return Times(1.0, 1.0, 3), None
+        raise ZerosetError("not drawn at all")
 
     monkeypatch.setattr(rerun, "frame_times", once)
     list(measure_row(table, row, FIND, Devices("interp", None), 0.0))
@@ -147,6 +160,18 @@ def test_a_dash_is_a_dash_and_a_failure_is_told() -> None:
     (shown,) = paper_report(_measured(table, devices), machine)
     assert shown.rows[0][:4] == ("blobby", "50.0", "-", "-")
     assert any("blobby, interval: mitchell-exact" in note for note in shown.notes)
+
+
+def test_what_sampling_gets_wrong_is_told() -> None:
+    hunt, devices = _row(_table("sn10-1"), "hunt"), Devices("cpu", 1)
+    table = replace(_table("sn10-1"), size=64, rows=(replace(hunt, steps=5),))
+    (cost,) = _measured(table, devices)
+    few = [cell.other for cell in cost.cells]
+    (exact,) = _measured(replace(_table("sn10-3"), size=64, rows=(_row(_table("sn10-3"), "goursat"),)), devices)
+    assert all(share is not None and share > 0.02 for share in few)
+    assert exact.cells[0].other == pytest.approx(0.0, abs=0.002)
+    (shown,) = paper_report([cost], this_machine(devices.steady))
+    assert any("(hunt)" in note for note in shown.notes)
 
 
 def test_iterations_are_counted() -> None:
