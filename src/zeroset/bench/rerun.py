@@ -78,7 +78,14 @@ class RowCost:
     auto: tuple[Cell, ...] = ()
 
 
-def measure_row(table: PrintedTable, row: Row, find: Find, devices: Devices, seconds: float) -> Iterator[RowCost]:
+def measure_row(
+    table: PrintedTable,
+    row: Row,
+    find: Find,
+    devices: Devices,
+    seconds: float,
+    progress: Callable[[float], None] = lambda _: None,
+) -> Iterator[RowCost]:
     """Measure one row of a paper's table, a group of settings at a time.
 
     Args:
@@ -87,17 +94,21 @@ def measure_row(table: PrintedTable, row: Row, find: Find, devices: Devices, sec
         find: gives a surface of the gallery.
         devices: where to run.
         seconds: how long each of its frames is repeated.
+        progress: told the share of the row that is done.
     """
     again = _Again(table, row, find(row.surface), devices, seconds) if row.surface else None
+    done = iter(range(len(table.settings)))
     for group in table.groups:
         found = [(setting, figures) for setting, figures in table.figures(row) if setting.group == group]
         if again is None:
-            cells = tuple(Cell(setting.name, 0, figures, error=UNKNOWN) for setting, figures in found)
-            yield RowCost(table, group, row, cells)
+            yield RowCost(table, group, row, tuple(Cell(s.name, 0, figures, error=UNKNOWN) for s, figures in found))
             continue
-        cells = tuple(again.cell(setting, figures) for setting, figures in found)
+        cells = []
+        for setting, figures in found:
+            progress(next(done) / len(table.settings))
+            cells.append(again.cell(setting, figures))
         drawn = dict.fromkeys((again.size(s), s.shadows) for s, _ in found if s.method != MESHING)
-        yield RowCost(table, group, row, cells, tuple(again.auto(*each) for each in drawn))
+        yield RowCost(table, group, row, tuple(cells), tuple(again.auto(*each) for each in drawn))
 
 
 class _Again:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import click
@@ -58,6 +59,11 @@ def command(
             file.write(to_json(costs, machine).encode())
 
 
+def _share(progress: Callable[[float], None], part: int, parts: int, share: float) -> None:
+    """Progress of one part as progress of the whole."""
+    progress((part + share) / parts)
+
+
 def _list() -> None:
     from zeroset.bench.printed import printed_tables
 
@@ -75,8 +81,8 @@ def _collect(table: PrintedTable, devices: Devices, seconds: float) -> tuple[Seq
     with Progress(f"timing {table.id}") as progress:
         try:
             for i, row in enumerate(table.rows):
-                progress(i / len(table.rows))
-                costs.extend(measure_row(table, row, gallery.__getitem__, devices, seconds))
+                part = partial(_share, progress, i, len(table.rows))
+                costs.extend(measure_row(table, row, gallery.__getitem__, devices, seconds, part))
         except KeyboardInterrupt:
             return costs, True
     return costs, False

@@ -140,6 +140,13 @@ def test_steps_by_hand() -> None:
     assert [hand_steps("sn10-2", name) for name in ("ding-dong", "kiss", "sphere", "torus-root")] == [15, 45, 33, 100]
 
 
+def test_progress_goes_from_setting_to_setting() -> None:
+    table, told = _table("sn10-2"), []
+    row = _tiny(table, [_row(table, "goursat")]).rows[0]
+    list(measure_row(_tiny(table, [row]), row, FIND, Devices("interp", None), 0.0, told.append))
+    assert told == [0.0, 0.5]
+
+
 def test_what_the_gallery_has_not_keeps_its_figures() -> None:
     table = _table("sn10-6")
     devices = Devices("interp", None)
