@@ -153,7 +153,7 @@ def _notes(table: PrintedTable, costs: Sequence[RowCost], machine: Machine) -> t
 
 
 def _disagreements(costs: Sequence[RowCost]) -> Iterator[str]:
-    """How much of their pictures is not what the default method proves, one line for all settings that draw."""
+    """How much of the pictures is not what the default method shows, one line for all settings that draw."""
     said = []
     for name in dict.fromkeys(cell.setting for cost in costs for cell in cost.cells):
         found = [
@@ -168,8 +168,8 @@ def _disagreements(costs: Sequence[RowCost]) -> Iterator[str]:
             said.append(f"{name} {100 * mean:.2g} %, at most {100 * worst:.2g} % ({where})")
     if said:
         yield (
-            f"Pixels that auto proves to be different (surface or none, or {100 * APART:g} % of the bounds' extent "
-            f"apart), the mean over rows: {'; '.join(said)}."
+            "Pixels where auto shows something else (surface or none, or surface "
+            f"{100 * APART:g} % of the bounds' extent away), the mean over rows: {'; '.join(said)}."
         )
 
 

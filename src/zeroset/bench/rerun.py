@@ -45,7 +45,7 @@ class Cell:
         wall: milliseconds; None where it could not be done.
         gpu: milliseconds by the GPU's own clock; None without one.
         steps: evaluations a ray, the mean over those that were searched; None where nothing was drawn.
-        other: the share of pixels that the default method proves to be different; None where nothing was drawn.
+        other: the share of pixels where the default method shows something else; None where nothing was drawn.
         error: why it could not be done, or an empty string.
     """
 
@@ -120,7 +120,7 @@ class _Again:
         self._surface = surface
         self._devices = devices
         self._seconds = seconds
-        self._truth: dict[int, Depth] = {}
+        self._default: dict[int, Depth] = {}
 
     def size(self, setting: Setting) -> int:
         """Pixels along a side; none of a mesh."""
@@ -165,14 +165,14 @@ class _Again:
             wall=wall,
             gpu=gpu,
             steps=float(searched.mean()) if searched.size else 0.0,
-            other=other_pixels(depth, self._certain(cell.size), APART * self._surface.fitted.extent),
+            other=other_pixels(depth, self._expected(cell.size), APART * self._surface.fitted.extent),
         )
 
-    def _certain(self, size: int) -> Depth:
-        """What the default method proves, one ray a pixel."""
-        if size not in self._truth:
-            self._truth[size] = self._draw(size, False, thin=False)().aov("depth")
-        return self._truth[size]
+    def _expected(self, size: int) -> Depth:
+        """Where the default method finds the surface, one ray a pixel."""
+        if size not in self._default:
+            self._default[size] = self._draw(size, False, thin=False)().aov("depth")
+        return self._default[size]
 
     def _draw(self, size: int, shadows: bool, **options: Any) -> Callable[[], Image]:
         """A picture from the row's place, in the light that shadows need."""
