@@ -172,3 +172,10 @@ def test_what_cannot_be_drawn_together() -> None:
         zs.Scene([ball(i, 0, 0) for i in range(33)])
     with pytest.raises(ParameterError, match="a mesh takes one surface"):
         zs.mesh([BALL, BALL])  # type: ignore[arg-type]
+
+
+def test_a_small_thing_on_a_large_ground_is_found_as_closely_as_alone() -> None:
+    ground = zs.surface("z + 1", bounds=zs.Box((-500, -500, -2), (500, 500, 0)))
+    hits = zs.cast([ground, BALL], [[0.3, -5, 0.1], [0.3, -5, 0.1]], [[0, 1, 0], [0, 1, -0.5]], device="cpu")
+    assert hits.part.tolist() == [1, 0]
+    assert abs(float(hits.t[0]) - (5 - np.sqrt(0.9))) < 4 * 2.4 * 2.0**-14
