@@ -147,6 +147,18 @@ def _follow(
     respond.to(_Carried(words[0], ray, start, weight), found)
 
 
+def _blur(ray: Ray, t: Value) -> Value:
+    """How far along a ray its point may be from the true one: each coordinate is rounded by 2^-24 of what goes in."""
+    far = [abs(o) + abs(t * d) for o, d in zip(ray.origin, ray.direction, strict=True)]
+    return (far[0] + far[1] + far[2]) * 2.0**-22 / dot(ray.direction, ray.direction).maximum(1e-30).sqrt()
+
+
+def _before(carried: _Carried, clear: Value) -> Value:
+    """Where a mirrored ray starts: before the end of what is clear by its origin's rounding, which would else put some
+    behind the surface; never before the ray's own start."""
+    return (clear - _blur(carried.ray, clear)).maximum(carried.start.minimum(clear))
+
+
 class _Response:
     """What comes of a ray: colour for its pixel, and further rays."""
 
@@ -196,13 +208,13 @@ class _Response:
         if optics.bends:
             bent, total = self._bent(number("ior"), found.normal, toward_eye, seen.normal)
             mirror, passing = total.select(mirror + passing, mirror), total.select(0.0, passing)
-            self._send(carried, self._from(carried, found.end, bent), passing)
+            self._send(carried, self._from(carried, found.end + _blur(ray, found.end), bent), passing)
         elif optics.through:
             self._send(carried, replace(carried, start=found.end), passing)
         if optics.mirror or optics.bends:
             cosine = dot(seen.normal, toward_eye)
             mirrored = [n * (cosine * 2.0) - e for n, e in zip(seen.normal, toward_eye, strict=True)]
-            self._send(carried, self._from(carried, found.clear, mirrored), mirror)
+            self._send(carried, self._from(carried, _before(carried, found.clear), mirrored), mirror)
 
     def _lights(self, point: Sequence[Value], seen: Face) -> Sequence[Value]:
         data = self.builder.buffer(LIGHTS, F32)
