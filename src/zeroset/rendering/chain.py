@@ -150,7 +150,7 @@ class Chain:
         return constant(False, BOOL), *sky, waiting, *now.flat()
 
     def _meet(self, now: Traveller, found: Found, waiting: Value) -> Values:
-        color, children = self._response.of(now.ray, found)
+        color, children = self._response.of(now.ray, now.start, found)
         added = _counted(color, now.weight)
         if not children:
             return constant(False, BOOL), *added, waiting, *now.flat()

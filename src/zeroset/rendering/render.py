@@ -71,7 +71,7 @@ def render(
         camera: None takes the scene's or the surface's own, or one that fits the bounds.
         method: ``"auto"`` or another name of ``zs.methods``, or an instance with options.
         device: ``"auto"``, ``"cpu"``, ``"interp"``, or a Device.
-        tolerance: world length to which roots are found; None takes 2^-14 of the bounds' extent.
+        tolerance: world length to which roots are found; None takes 2^-14 of the (smallest) bounds' extent.
         material: colours and reflectance.
         lights: where the light comes from; None takes two headlights.
         background: linear RGB.
@@ -125,9 +125,9 @@ def render(
     frame = frame_for(shown, chosen, lighting, layout, target, draft, tint) if whole else None
     view = parse_camera(camera or scene.camera or scene.surface.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
-    uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
+    uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.smallest))
     uniforms |= shading_uniforms(materials[0], lit, scene.background, rays)
-    coarse = shadow_length(shadow_tolerance, shown.fitted)
+    coarse = shadow_length(shadow_tolerance, shown.smallest)
     light = None
     if scene.shadows or lighting.optics is not None:
         light = Illumination.of(scene, rays, coarse, _depth(depth, lighting), smooth)

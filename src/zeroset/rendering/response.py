@@ -1,8 +1,8 @@
 """What comes of a ray where it meets a surface: a colour, and the rays that it goes on as.
 
 Light is reflected by the surface itself, mirrored by it, and let through it, straight on or bent. A mirrored ray starts
-where the search proved its own ray clear before the hit, a bent one where it had the hit behind it: nothing has to be
-moved off the surface by hand. A straight one goes on along the same ray.
+where the search proved its own ray clear before the hit, a bent one where it had the hit behind it, both beyond what
+rounding their origins may do: no epsilon has to be guessed. A straight one goes on along the same ray.
 """
 
 from __future__ import annotations
@@ -83,10 +83,15 @@ class Response:
             return cube_color(self.builder.buffer(TEXELS, F32), self.builder.uniform("face_side", U32), direction)
         return [self.builder.uniform(f"sky_{c}", F32) for c in "rgb"]
 
-    def of(self, ray: Ray, found: Found) -> tuple[Color, list[Onward]]:
+    def of(self, ray: Ray, start: Value, found: Found) -> tuple[Color, list[Onward]]:
         """The colour of what was met, as much of it as is seen, and at most two rays that go on.
 
         A ray that is let through comes before one that is mirrored.
+
+        Args:
+            ray: the ray.
+            start: where on it the search began.
+            found: what it met.
         """
         optics = self.optics
         point = [found.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
@@ -98,21 +103,19 @@ class Response:
         mirror = number("reflectance") if optics.mirror else constant(0.0, F32)
         passing = (1.0 - opacity) * (1.0 - mirror)
         color = [c * (opacity * (1.0 - mirror)) for c in self._lights(point, seen)]
+        # Before the end of what is clear by the rounding of the new origin, which would else put some behind the surface;
+        # never before the ray's own start.
+        before = (found.clear - _blur(ray, found.clear)).maximum(start.minimum(found.clear))
         if not optics.bends:
             straight = [Onward(ray, found.end, passing)] if optics.through else []
-            mirrored = [self._mirrored(ray, found, seen, toward_eye, mirror)] if optics.mirror else []
+            mirrored = [_mirrored(ray, before, seen, toward_eye, mirror)] if optics.mirror else []
             return color, straight + mirrored
         direction, total = self._bent(number("ior"), found.normal, toward_eye, seen.normal)
         mirror, passing = total.select(mirror + passing, mirror), total.select(0.0, passing)
-        bent = _from(ray, found.end, direction, passing)
-        reflected = self._mirrored(ray, found, seen, toward_eye, mirror)
+        bent = _from(ray, found.end + _blur(ray, found.end), direction, passing)
+        reflected = _mirrored(ray, before, seen, toward_eye, mirror)
         # Where nothing mirrors there is still total reflection, and then nothing goes through.
         return color, [bent, reflected] if optics.mirror else [_either(total, reflected, bent)]
-
-    def _mirrored(self, ray: Ray, found: Found, seen: Face, toward_eye: Sequence[Value], share: Value) -> Onward:
-        cosine = dot(seen.normal, toward_eye)
-        direction = [n * (cosine * 2.0) - e for n, e in zip(seen.normal, toward_eye, strict=True)]
-        return _from(ray, found.clear, direction, share)
 
     def _lights(self, point: Sequence[Value], seen: Face) -> Color:
         data = self.builder.buffer(LIGHTS, F32)
@@ -141,6 +144,18 @@ class Response:
         rest = 1.0 - ratio * ratio * (1.0 - cosine * cosine)
         along = ratio * cosine - rest.maximum(0.0).sqrt()
         return [n * along - e * ratio for n, e in zip(seen, toward_eye, strict=True)], rest < 0.0
+
+
+def _mirrored(ray: Ray, t: Value, seen: Face, toward_eye: Sequence[Value], share: Value) -> Onward:
+    cosine = dot(seen.normal, toward_eye)
+    direction = [n * (cosine * 2.0) - e for n, e in zip(seen.normal, toward_eye, strict=True)]
+    return _from(ray, t, direction, share)
+
+
+def _blur(ray: Ray, t: Value) -> Value:
+    """How far along a ray its point may be from the true one: each coordinate is rounded by 2^-24 of what goes in."""
+    far = [abs(o) + abs(t * d) for o, d in zip(ray.origin, ray.direction, strict=True)]
+    return (far[0] + far[1] + far[2]) * 2.0**-22 / dot(ray.direction, ray.direction).maximum(1e-30).sqrt()
 
 
 def _from(ray: Ray, t: Value, direction: Sequence[Value], share: Value) -> Onward:
