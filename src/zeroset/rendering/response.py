@@ -103,8 +103,8 @@ class Response:
         mirror = number("reflectance") if optics.mirror else constant(0.0, F32)
         passing = (1.0 - opacity) * (1.0 - mirror)
         color = [c * (opacity * (1.0 - mirror)) for c in self._lights(point, seen)]
-        # Before the end of what is clear by the rounding of the new origin, which would else put some behind the surface;
-        # never before the ray's own start.
+        # Before the end of what is clear by the rounding of the new origin, which would put some of them behind the
+        # surface; never before the ray's own start.
         before = (found.clear - _blur(ray, found.clear)).maximum(start.minimum(found.clear))
         if not optics.bends:
             straight = [Onward(ray, found.end, passing)] if optics.through else []

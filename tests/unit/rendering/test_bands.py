@@ -80,7 +80,7 @@ def test_rays_that_wait_need_no_larger_buffers(monkeypatch: pytest.MonkeyPatch) 
         return allocate(self, type_, count)  # type: ignore[arg-type]
 
     monkeypatch.setattr(Narrow, "allocate", counted)
-    look = {"material": zs.Material(opacity=0.3, reflectance=0.2), "environment": "sky", "depth": 12}
+    look = {"material": zs.Material(opacity=0.3, reflectance=0.2), "depth": 12}
     whole = zs.render(zs.gallery["tangle"], 350, device="cpu", **look)  # type: ignore[arg-type]
     parts = zs.render(zs.gallery["tangle"], 350, device=device, **look)  # type: ignore[arg-type]
     # The stack of rays that wait is larger than the picture, and is used again and again.
