@@ -217,7 +217,7 @@ def _shader(kernel: Kernel, device: str) -> Iterator[str]:
 
     gpu = _gpu(device)
     target = GpuTarget() if gpu is None else gpu.target
-    flags = ("subgroups", "doubles", "exact_division", "exact_root")
+    flags = ("subgroups", "doubles", "exact_division", "exact_root", "exact_rounding")
     has = [flag.replace("_", " ") for flag in flags if getattr(target, flag)]
     name = "a GPU with the least that zeroset needs" if gpu is None else gpu.found.title
     yield f"// for {name}: {', '.join(has) or 'nothing optional'}"

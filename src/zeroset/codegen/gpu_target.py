@@ -19,6 +19,7 @@ class GpuTarget:
         doubles: whether there are f64 numbers and 64-bit integers to take them apart.
         exact_division: whether quotients are rounded to nearest.
         exact_root: whether square roots are rounded to nearest.
+        exact_rounding: whether f64 numbers are rounded to whole ones as they should be.
         workgroup: lanes of a workgroup; 64 lanes are one tile of 8x8 pixels.
     """
 
@@ -26,10 +27,11 @@ class GpuTarget:
     doubles: bool = False
     exact_division: bool = False
     exact_root: bool = False
+    exact_rounding: bool = False
     workgroup: int = 64
 
     @property
     def identity(self) -> str:
         """Everything that decides the code, as one line; part of every cache key."""
-        flags = (self.subgroups, self.doubles, self.exact_division, self.exact_root)
+        flags = (self.subgroups, self.doubles, self.exact_division, self.exact_root, self.exact_rounding)
         return f"wgsl|{''.join(str(int(flag)) for flag in flags)}|{self.workgroup}"

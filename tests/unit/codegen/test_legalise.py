@@ -83,3 +83,26 @@ def test_only_what_is_wanting_is_spelled_out() -> None:
     assert "div" in ops_of(kernel_of(F32))
     assert ops_of(legalise(kernel_of(F32), ROUGH)).count("div") == 3
     assert ops_of(legalise(kernel_of(F32), EXACT)).count("div") == 1
+
+
+def roundings(type_: Type) -> Kernel:
+    with KernelBuilder("roundings") as k:
+        i = k.index()
+        a = load(k.buffer("a", type_), i)
+        for name in ("floor", "ceil", "trunc", "rint"):
+            store(k.buffer(name, type_, writable=True), i, getattr(a, name)())
+    return k.kernel
+
+
+def test_f64_rounds_by_way_of_small_integers() -> None:
+    halves = np.concatenate([np.arange(-40.5, 41), *(2.0**n + np.array([-1, -0.5, 0.5, 1.0, 1.5]) for n in range(54))])
+    a = np.concatenate([some_numbers(F64), halves, -halves])
+    plain = roundings(F64)
+    with np.errstate(all="ignore"):
+        before, after = run(plain, a, a), run(legalise(plain, ROUGH), a, a)
+    for name in ("floor", "ceil", "trunc", "rint"):
+        assert np.array_equal(before[name], after[name], equal_nan=True), name
+        assert np.array_equal(np.signbit(before[name]), np.signbit(after[name])), name
+    assert not {"floor", "ceil", "trunc", "rint"} & set(ops_of(legalise(plain, ROUGH)))
+    assert ops_of(legalise(plain, GpuTarget(exact_rounding=True))) == ops_of(plain)
+    assert ops_of(legalise(roundings(F32), ROUGH)) == ops_of(roundings(F32))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +11,13 @@ from tests.gpus import needs_gpu
 
 from zeroset.errors import DeviceError, DeviceLostError
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Type, atomic, if_, load, store
+from zeroset.kernel.ops import OPS
 from zeroset.runtime import Counted, get_device, registry
 from zeroset.runtime.cache import Cache
 from zeroset.runtime.gpu import adapter
 from zeroset.runtime.gpu.calls import ROW, Layout, grid, head
 from zeroset.runtime.gpu.device import GpuDevice
-from zeroset.runtime.gpu.probe import judge, operands, run_probe
+from zeroset.runtime.gpu.probe import judge, operands, rounds_doubles, run_probe
 from zeroset.runtime.interp import InterpreterDevice
 
 
@@ -90,6 +92,17 @@ def test_the_probe_sees_what_arithmetic_does() -> None:
     assert not rough.division
     assert cut.sums > 0.5
     assert broken.roots == np.inf
+
+
+def test_the_probe_sees_how_doubles_are_rounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert rounds_doubles(InterpreterDevice())
+
+    def careless(a: np.ndarray) -> np.ndarray:
+        # As a driver does that takes numbers beyond 2^24 for whole ones, as f32 numbers are.
+        return np.where(np.abs(a) < 2.0**24, np.trunc(a), a)
+
+    monkeypatch.setitem(OPS, "trunc", replace(OPS["trunc"], evaluate=careless))
+    assert not rounds_doubles(InterpreterDevice())
 
 
 def test_no_wgpu_is_said_clearly(monkeypatch: pytest.MonkeyPatch) -> None:

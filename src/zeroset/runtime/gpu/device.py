@@ -18,7 +18,7 @@ from zeroset.runtime.gpu.adapter import Found, choose, open_device
 from zeroset.runtime.gpu.calls import HEAD, count_kernel, grid, head
 from zeroset.runtime.gpu.faults import Faults
 from zeroset.runtime.gpu.memory import GpuBuffer, Memory
-from zeroset.runtime.gpu.probe import NEAR, Arithmetic, check, run_probe
+from zeroset.runtime.gpu.probe import NEAR, Arithmetic, check, rounds_doubles, run_probe
 from zeroset.runtime.gpu.program import GpuProgram, Pipeline
 from zeroset.runtime.gpu.stream import SLOT, SLOTS, Stream
 from zeroset.runtime.programs import Programs
@@ -50,7 +50,7 @@ class GpuDevice:
         self._busy = threading.RLock()
         has = self.found.features
         self._use(
-            GpuTarget(subgroups="subgroups" in has, doubles="doubles" in has, exact_division=True, exact_root=True)
+            GpuTarget("subgroups" in has, "doubles" in has, exact_division=True, exact_root=True, exact_rounding=True)
         )
         self.arithmetic = self._measure()
 
@@ -63,6 +63,10 @@ class GpuDevice:
 
     def _measure(self) -> Arithmetic:
         """See how the GPU calculates, and correct what is too coarse."""
+        if self.target.doubles and not rounds_doubles(self):
+            self._use(replace(self.target, exact_rounding=False))
+            if not rounds_doubles(self):
+                self._use(replace(self.target, doubles=False))
         plain = run_probe(self)
         if plain.division and plain.root:
             check(self.found.name, plain, 0.5)

@@ -2,7 +2,8 @@
 
 The proofs of ``arith`` need sums and products rounded to nearest, and quotients and roots within less than one unit in
 the last place. WGSL promises neither; a GPU that does not keep the first is refused, and one that does not keep the
-second gets a correction step (``codegen.legalise``) and is measured again.
+second gets a correction step (``codegen.legalise``) and is measured again. So does one whose f64 numbers are rounded to
+whole ones wrongly; where that does not help it goes without f64.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.errors import DeviceError
-from zeroset.kernel import F32, Kernel, KernelBuilder, load, store
+from zeroset.kernel import F32, F64, Kernel, KernelBuilder, load, store
 
 if TYPE_CHECKING:
     from zeroset.runtime.device import Device
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 Floats = npt.NDArray[np.float32]
 _LANES = 1 << 13
 _RESULTS = ("sum", "product", "quotient", "root", "rest")
+_ROUNDINGS = {"floored": np.floor, "raised": np.ceil, "cut": np.trunc, "rounded": np.rint}
 NEAR = 0.51
 """Units in the last place by which a corrected quotient or root may be off."""
 
@@ -89,6 +91,27 @@ def run_probe(device: Device) -> Arithmetic:
     device.write(buffers["b"], b)
     device.compile(probe_kernel()).run(_LANES, {}, buffers)
     return judge(a, b, {name: device.read(buffers[name]) for name in _RESULTS})
+
+
+def rounding_kernel() -> Kernel:
+    """An f64 number rounded to a whole one in every way."""
+    with KernelBuilder("roundings") as k:
+        i = k.index()
+        a = load(k.buffer("a", F64), i)
+        for name, way in _ROUNDINGS.items():
+            store(k.buffer(name, F64, writable=True), i, getattr(a, way.__name__)())
+    return k.kernel
+
+
+def rounds_doubles(device: Device) -> bool:
+    """Whether a device rounds f64 numbers to whole ones as it should, the sign of a zero aside."""
+    sizes = np.exp2(np.arange(-2.0, 54.0))
+    near = np.concatenate([sizes, sizes + 0.5, sizes - 0.5, sizes + 0.25, sizes - 0.75, [0.0]])
+    numbers = np.concatenate([near, -near])
+    buffers = {name: device.allocate(F64, len(numbers)) for name in ("a", *_ROUNDINGS)}
+    device.write(buffers["a"], numbers)
+    device.compile(rounding_kernel()).run(len(numbers), {}, buffers)
+    return all(np.array_equal(device.read(buffers[name]), way(numbers)) for name, way in _ROUNDINGS.items())
 
 
 def judge(a: Floats, b: Floats, given: Mapping[str, Floats]) -> Arithmetic:
