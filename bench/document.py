@@ -18,6 +18,7 @@ PAGE = ROOT / "docs" / "benchmarks.md"
 sys.path.insert(0, str(ROOT / "src"))
 
 from zeroset.bench.cold import START, environment  # noqa: E402
+from zeroset.bench.printed import printed_tables  # noqa: E402
 
 ZEROSET = (sys.executable, "-c", START, "bench", "--markdown")
 GPU = (*ZEROSET, "--device", "gpu")
@@ -30,12 +31,15 @@ GPU_PARTS = {
     "software-vulkan": (*GPU, "--size", "512", *SOFTWARE),
 }
 """For the machine with the GPU; the last one for one without, whose ``gpu`` is Mesa's driver in software."""
+TABLES = {table.id: (*ZEROSET, "paper", table.id, "--device", "cpu") for table in printed_tables()}
+"""The papers' tables, a part each; all of them by the name ``tables``."""
 PARTS = {
     "gallery": (*ZEROSET,),
     "one-thread": (*ZEROSET, "--threads", "1", "--size", "1024", "barth-sextic", "barth-decic", "chmutov-14"),
     "memory": (*ZEROSET, "--memory"),
     "light": (*ZEROSET, "--light", "--seconds", "2", "tangle", "barth-sextic"),
     "cold": (*ZEROSET, "--cold", "barth-sextic", "barth-decic", "tangle", "blobby", "blinn-blobby-30"),
+    **TABLES,
     "peers": (sys.executable, str(ROOT / "bench" / "peers.py"), "--markdown"),
 }
 
@@ -45,15 +49,19 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("folder", type=Path, help="where the peers' scenes and pictures are left")
     parser.add_argument(
-        "parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)} (the default), {', '.join(GPU_PARTS)}"
+        "parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)} (the default), tables, {', '.join(GPU_PARTS)}"
     )
+    parser.add_argument("--seconds", help="time for each figure, instead of the commands' own")
     options = parser.parse_args()
     known = PARTS | GPU_PARTS
-    if unknown := set(options.parts) - set(known):
+    asked = [name for part in options.parts for name in (TABLES if part == "tables" else (part,))]
+    if unknown := set(asked) - set(known):
         parser.error(f"there is no part {', '.join(sorted(unknown))}")
-    for part in options.parts or PARTS:
+    for part in asked or PARTS:
         print(f"measuring: {part}", file=sys.stderr)
         line = [*known[part], *([str(options.folder.resolve())] if part == "peers" else [])]
+        if options.seconds is not None and part != "peers":
+            line += ["--seconds", options.seconds]
         done = subprocess.run(line, env=environment(), stdout=subprocess.PIPE, text=True, check=True)
         _replace(part, done.stdout)
     return 0

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from zeroset.scene.file import load, save
     from zeroset.scene.light import Light, Material
     from zeroset.scene.scene import Scene
+    from zeroset.scene.solid import Solid
     from zeroset.scene.surface import Surface, surface
     from zeroset.shelf import gallery
     from zeroset.view.show import show
@@ -55,6 +56,7 @@ __all__ = [
     "Material",
     "Mesh",
     "Scene",
+    "Solid",
     "Surface",
     "ZerosetError",
     "__version__",
@@ -83,6 +85,7 @@ _HOMES = {
     "Material": "zeroset.scene.light",
     "Mesh": "zeroset.export.triangles",
     "Scene": "zeroset.scene.scene",
+    "Solid": "zeroset.scene.solid",
     "Surface": "zeroset.scene.surface",
     "ZerosetError": "zeroset.errors",
     "animate": "zeroset.export.animate",

@@ -46,7 +46,7 @@ def test_all_is_complete_and_sorted() -> None:
             "UNRESOLVED",
             "show",
         ),
-        *("Mesh", "mesh", "animate"),
+        *("Mesh", "mesh", "animate", "Solid"),
     }
     assert promised | {"__version__"} == set(zs.__all__)
     assert dir(zs) == sorted(zs.__all__)

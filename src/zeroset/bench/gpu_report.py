@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from zeroset.bench.gpu import FIRST, GpuCost, PassesCost
 from zeroset.bench.machine import Machine
-from zeroset.bench.papers import PaperCost, paper_tables
+from zeroset.bench.papers import HARDWARE, PaperCost
+from zeroset.bench.printed import printed_tables
 from zeroset.bench.table import Table
 from zeroset.bench.timing import Times
 
@@ -77,13 +78,16 @@ def _passes_row(cost: PassesCost, names: Sequence[str]) -> tuple[str, ...]:
 def papers_table(costs: Sequence[PaperCost], machine: Machine) -> Table:
     """Our frame rates beside those of papers."""
     columns = ("surface", "size", "reference", "best there", "in flight", "×", "GPU", "×", "best in the paper", "GPU ×")
-    used = [table for table in paper_tables() if any(cost.reference.table is table for cost in costs)]
+    used = [table for table in printed_tables() if any(cost.reference.table is table for cost in costs)]
     notes = (
         "Frames a second. best there: the table's best and how it was made; in flight: ours by wall time, many frames",
         "sent off and only the last waited for (on the CPU: one after the other); GPU: ours by the GPU's own clock, as",
         "if nothing else took time. ×: ours over the paper's. best in the paper: over all its tables of this size,",
         "closed forms included.",
-        *(f"{table.paper}, {table.table}: {table.size}², {table.hardware}. {table.note}" for table in used),
+        *(
+            f"{table.paper}, {table.table}: {table.size}², {table.hardware[HARDWARE]}. {table.surfaces}"
+            for table in used
+        ),
         str(machine),
     )
     return Table("zeroset bench --papers", columns, tuple(map(_papers_row, costs)), notes)

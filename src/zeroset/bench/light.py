@@ -25,11 +25,13 @@ class Feature:
         name: for people.
         goal: times a plain frame that it may take: what K09 or SN10 measured for theirs; None where they say nothing.
         options: of ``render``, beside those of the plain frame.
+        isovalues: whether f is met at two values instead of at one of them.
     """
 
     name: str
     goal: float | None
     options: dict[str, Any] = field(default_factory=dict)
+    isovalues: bool = False
 
 
 FEATURES = (
@@ -38,6 +40,7 @@ FEATURES = (
     Feature("six reflections", 1.3, {"material": Material(reflectance=0.4), "depth": 6}),
     Feature("glass", None, {"material": Material(opacity=0.1, reflectance=0.1, ior=1.4), "environment": "sky"}),
     Feature("smooth edges, 16", 1.6, {"antialias": 16}),
+    Feature("two isovalues", 1.4, isovalues=True),
 )
 
 
@@ -72,13 +75,16 @@ class LightCost:
 def measure_light(surface: Surface, size: int, method: str, device: Device, seconds: float) -> Iterator[LightCost]:
     """Measure every feature on one surface; each takes turns with a plain frame."""
 
-    def draw(**options: Any) -> None:
+    def draw(shown: Surface = surface, **options: Any) -> None:
         # The pixels are fetched, so that a GPU has drawn them.
-        render(surface, size, method=method, device=device, lights=SUN, **options).pixels  # noqa: B018
+        render(shown, size, method=method, device=device, lights=SUN, **options).pixels  # noqa: B018
 
+    twice = surface.with_isovalues((0.0, surface.fitted.reach))
     for feature in FEATURES:
         try:
-            plain, frame = take_turns((draw, partial(draw, **feature.options)), seconds)
+            plain, frame = take_turns(
+                (draw, partial(draw, twice if feature.isovalues else surface, **feature.options)), seconds
+            )
         except ZerosetError as error:
             yield LightCost(surface.name, feature.name, size, error=str(error).splitlines()[0])
         else:

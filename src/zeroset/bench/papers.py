@@ -1,44 +1,21 @@
-"""Frame rates that papers print for surfaces of the gallery, to be held against our own."""
+"""The best that papers have for each surface, to be held against our frame rates."""
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from importlib.resources import files
+from functools import partial
 
 from zeroset.bench.devices import Devices
-from zeroset.bench.frames import frame_cost
-from zeroset.bench.gpu import gpu_frame
+from zeroset.bench.printed import PrintedTable, Row, printed_tables
+from zeroset.bench.steady import frame_times
 from zeroset.bench.timing import Times
 from zeroset.errors import ZerosetError
+from zeroset.rendering.render import render
 from zeroset.scene.surface import Surface
 
-
-@dataclass(frozen=True, slots=True)
-class PaperTable:
-    """One table of a paper.
-
-    Attributes:
-        paper: its short name.
-        table: the table's.
-        reference: whether zeroset is held against this table; others only tell of better rates in the same paper.
-        size: pixels along a side of the paper's pictures.
-        hardware: that the paper's figures were made on.
-        columns: what each rate was made with.
-        note: what stands in for what.
-        rates: frames a second by our name of the surface, one for each column; 0 where the paper has none.
-    """
-
-    paper: str
-    table: str
-    reference: bool
-    size: int
-    hardware: str
-    columns: tuple[str, ...]
-    note: str
-    rates: Mapping[str, Sequence[float]]
+HARDWARE = "GPU"
+"""Whose figures references are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +32,7 @@ class Reference:
     """
 
     name: str
-    table: PaperTable
+    table: PrintedTable
     rate: float
     column: str
     anywhere: float
@@ -79,49 +56,37 @@ class PaperCost:
     error: str = ""
 
 
-@lru_cache(maxsize=1)
-def paper_tables() -> tuple[PaperTable, ...]:
-    """All tables that are known.
-
-    Example:
-        >>> [t.table for t in paper_tables() if t.paper == "K09"]
-        ['Table 1']
-    """
-    text = files("zeroset.bench").joinpath("papers.toml").read_text("utf-8")
-    return tuple(PaperTable(**{**t, "columns": tuple(t["columns"])}) for t in tomllib.loads(text)["tables"])
-
-
 def references(names: Sequence[str] = ()) -> Iterator[Reference]:
     """The references for surfaces, in the papers' order; for all that a paper has when no name is given.
 
     Raises:
         ZerosetError: no reference table has one of the names.
     """
-    known = [table for table in paper_tables() if table.reference]
+    rows = [(table, row) for table in printed_tables() if table.reference for row in table.rows if row.surface]
     for name in names:
-        if not any(name in table.rates for table in known):
+        if all(name != row.surface for _, row in rows):
             raise ZerosetError(
                 f"no paper has a frame rate for {name!r}", hint="zeroset bench --papers without names has them all"
             )
-    for table in known:
-        for name, rates in table.rates.items():
-            if not names or name in names:
-                rate, column = _best(table, rates)
-                yield Reference(name, table, rate, column, *_anywhere(name, table))
+    for table, row in rows:
+        if not names or row.surface in names:
+            yield Reference(row.surface, table, *_best(table, row), *_anywhere(row.surface, table))
 
 
-def _best(table: PaperTable, rates: Sequence[float]) -> tuple[float, str]:
-    """The best rate of a row and its column; the first of equals."""
-    rate = max(rates)
-    return rate, table.columns[list(rates).index(rate)]
+def _best(table: PrintedTable, row: Row) -> tuple[float, str]:
+    """The best rate of a row without shadows, and its column; the first of equals."""
+    found = [(rates.get(HARDWARE, 0.0), s.name) for s, rates in table.figures(row) if not s.shadows]
+    return max(found, key=lambda item: item[0])
 
 
-def _anywhere(name: str, reference: PaperTable) -> tuple[float, str]:
+def _anywhere(name: str, reference: PrintedTable) -> tuple[float, str]:
     found = []
-    for table in paper_tables():
-        if table.paper == reference.paper and table.size == reference.size and name in table.rates:
-            rate, column = _best(table, table.rates[name])
-            found.append((rate, f"{table.table}, {column}"))
+    for table in printed_tables():
+        if (table.paper, table.size, table.unit) == (reference.paper, reference.size, "fps"):
+            for row in table.rows:
+                if row.surface == name:
+                    rate, column = _best(table, row)
+                    found.append((rate, f"{table.table}, {column}"))
     return max(found, key=lambda item: item[0])
 
 
@@ -137,11 +102,8 @@ def measure_paper(
         devices: where to run.
         seconds: how long frames are repeated.
     """
-    surface, size = find(reference.name), reference.table.size
+    draw = partial(render, find(reference.name), reference.table.size, method=method, device=devices.steady)
     try:
-        if devices.gpu is None:
-            return PaperCost(reference, frame_cost(surface, size, method, devices.steady, seconds).frame)
-        cost = gpu_frame(surface, size, method, devices.gpu, seconds)
+        return PaperCost(reference, *frame_times(draw, devices, seconds))
     except ZerosetError as error:
         return PaperCost(reference, error=str(error).splitlines()[0])
-    return PaperCost(reference, cost.wall, cost.gpu)

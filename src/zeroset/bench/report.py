@@ -15,6 +15,7 @@ from zeroset.bench.light import LightCost
 from zeroset.bench.machine import Machine
 from zeroset.bench.memory import MemoryCost
 from zeroset.bench.papers import PaperCost
+from zeroset.bench.rerun import RowCost
 from zeroset.bench.table import Table
 
 Cost = SurfaceCost | MemoryCost | CommandCost | GpuCost | PassesCost | PaperCost | LightCost
@@ -115,13 +116,13 @@ def _command_row(cost: CommandCost) -> tuple[str, ...]:
     return cost.name, f"{cost.size}²", *seconds, str(cost.runs)
 
 
-def to_json(costs: Sequence[Cost], machine: Machine) -> str:
+def to_json(costs: Sequence[Cost] | Sequence[RowCost], machine: Machine) -> str:
     """Everything that was measured, machine included, as JSON text."""
     plain = {"machine": dataclasses.asdict(machine), "results": [_plain(cost) for cost in costs]}
     return json.dumps(plain, indent=1) + "\n"
 
 
-def _plain(cost: Cost) -> dict[str, Any]:
+def _plain(cost: Cost | RowCost) -> dict[str, Any]:
     plain = dataclasses.asdict(cost)
     if isinstance(cost, SurfaceCost | GpuCost):
         plain["frames"] = [dataclasses.asdict(frame) | {"ratio": frame.ratio} for frame in cost.frames]
@@ -129,5 +130,8 @@ def _plain(cost: Cost) -> dict[str, Any]:
         plain["ratio"] = cost.ratio
     if isinstance(cost, PaperCost):
         # A table's other rows are said in theirs.
-        del plain["reference"]["table"]["rates"]
+        del plain["reference"]["table"]["rows"], plain["reference"]["table"]["settings"]
+    if isinstance(cost, RowCost):
+        plain["table"] = {name: plain["table"][name] for name in ("id", "paper", "table", "unit", "hardware")}
+        del plain["row"]["figures"]  # They are in the cells.
     return plain

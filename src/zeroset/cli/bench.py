@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from zeroset.cli.bench_paper import command as paper
 from zeroset.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -42,7 +43,22 @@ class Wish:
     runs: int
 
 
-@click.command("bench")
+class _Bench(click.Command):
+    """``zeroset bench paper ...`` is a command of its own, wherever among the options the word stands."""
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        with super().make_context(info_name, list(args), parent, resilient_parsing=True) as seen:
+            names: Sequence[str] = seen.params.get("names") or ()
+        if not names or names[0] != paper.name:
+            return super().make_context(info_name, args, parent, **extra)
+        rest = list(args)
+        rest.remove(names[0])
+        return paper.make_context(f"{info_name} {paper.name}", rest, parent, **extra)
+
+
+@click.command("bench", cls=_Bench)
 @click.argument("names", nargs=-1)
 @click.option("-s", "--size", "sizes", multiple=True, type=click.IntRange(8, 16384), help="Pixels a side; repeatable.")
 @click.option("--threads", type=click.IntRange(1, 1024), help="Threads that a frame is spread over.")
@@ -59,7 +75,10 @@ class Wish:
 @click.option("--markdown", is_flag=True, help="Print the table in Markdown.")
 @click.option("--json", "json_file", metavar="FILE", help="Write all figures to a file too.")
 def command(markdown: bool, json_file: str | None, **wish: object) -> None:
-    """Time the surfaces NAMES, or all of the gallery: frames in steady state, compiling, and how far the limit is."""
+    """Time the surfaces NAMES, or all of the gallery: frames in steady state, compiling, and how far the limit is.
+
+    zeroset bench paper [TABLE]... measures the papers' own tables once more; zeroset bench paper lists them.
+    """
     from zeroset.atomic import check_writable, replacing
     from zeroset.bench import report
     from zeroset.bench.devices import Devices

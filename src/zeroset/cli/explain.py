@@ -9,13 +9,16 @@ import click
 
 from zeroset.cli.source import FormulaCommand, find_scene, read_method, surface_options
 from zeroset.errors import DeviceError, ZerosetError, did_you_mean
+from zeroset.scene.several import Several
+from zeroset.scene.solid import Solid
+from zeroset.scene.surface import Surface
 
 if TYPE_CHECKING:
     from zeroset.expr import Expr
     from zeroset.kernel import Kernel
     from zeroset.runtime.gpu.device import GpuDevice
     from zeroset.scene.scene import Scene
-    from zeroset.scene.surface import Surface
+    from zeroset.scene.several import Drawable
     from zeroset.solve import Method
 
 SHORT = 24
@@ -44,17 +47,19 @@ def command(
     target: str | None,
 ) -> None:
     """Explain SOURCE: the formula as understood, its operations, its kernels after each pass, the target code."""
+    from zeroset.rendering.drawn import as_drawn
+
     scene = find_scene(source, params, bounds)
     chosen = read_method(method)
-    chosen.check(scene.surface.field)
+    as_drawn(scene.surface).check(chosen)
     made = kernels(scene, chosen)
     if dag and not (kernel or pass_name or passes or target):
-        lines: Iterable[str] = operations(scene.surface.field.expr)
+        lines: Iterable[str] = (line for each in scene.surface.surfaces for line in operations(each.field.expr))
     elif kernel or pass_name or passes or target:
         wanted = made[_one_of(kernel or "primary", made, f"kernel of the method {chosen.name}")]()
         lines = _target_code(wanted, target, device) if target else _stages(wanted, pass_name, passes)
     else:
-        lines = (*_formula(scene.surface, chosen), *_short(scene.surface.field.expr), *_counts(made), *_more())
+        lines = (*_drawn(scene.surface, chosen), *_counts(made), *_more())
     for line in lines:
         click.echo(line)
 
@@ -75,7 +80,7 @@ def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
         name: lambda own=own: tracer.kernel(own)  # type: ignore[misc]
         for name, own in passes.items()
     }
-    return made | {"shade": lambda: shade_kernel(Lighting("d" * len(scene.lights)))}
+    return made | {"shade": lambda: shade_kernel(Lighting("d" * len(scene.lights)), len(scene.materials))}
 
 
 def _one_of(name: str, known: Iterable[str], what: str) -> str:
@@ -87,7 +92,36 @@ def _one_of(name: str, known: Iterable[str], what: str) -> str:
     return name
 
 
-def _formula(surface: Surface, method: Method) -> Iterator[str]:
+def _drawn(thing: Drawable, method: Method) -> Iterator[str]:
+    """All surfaces, and how solids are made of them."""
+    if isinstance(thing, Several):
+        for each in thing:
+            yield from _thing(each)
+            yield ""
+    else:
+        yield from _thing(thing)
+    yield f"method      {method.name}, {'certified' if method.certified else 'not certified'}: {method.summary}"
+    for surface in thing.surfaces:
+        yield f"operations  {surface.field.expr.size} distinct"
+        yield from _short(surface.field.expr)
+
+
+def _thing(thing: Surface | Solid) -> Iterator[str]:
+    from zeroset.scene.solid_text import solid_text
+
+    if isinstance(thing, Surface):
+        yield from _formula(thing)
+    else:
+        names = {surface: surface.name or f"part{i}" for i, surface in enumerate(thing.surfaces)}
+        if thing.name:
+            yield f"name        {thing.name}"
+        yield f"solid       {solid_text(thing, names)}"
+        for surface, name in names.items():
+            yield f"{name:<12}" + "; ".join(line[12:] for line in _formula(surface) if line.startswith("formula"))
+    yield f"bounds      {thing.fitted}{'' if thing.bounds is not None else ', fitted'}"
+
+
+def _formula(surface: Surface) -> Iterator[str]:
     from zeroset.expr.text import brief
 
     expr = surface.field.expr
@@ -100,9 +134,8 @@ def _formula(surface: Surface, method: Method) -> Iterator[str]:
     values = [f"{name} = {value:g}" for name, value in surface.params.items()]
     values += [f"{name} ({len(array)} numbers)" for name, array in surface.arrays.items()]
     yield f"parameters  {', '.join(values) or 'none'}"
-    yield f"bounds      {surface.fitted}{'' if surface.bounds is not None else ', fitted'}"
-    yield f"method      {method.name}, {'certified' if method.certified else 'not certified'}: {method.summary}"
-    yield f"operations  {expr.size} distinct"
+    if surface.isovalues:
+        yield f"isovalues   {', '.join(f'{value:g}' for value in surface.isovalues)}"
 
 
 def _short(expr: Expr) -> Iterator[str]:

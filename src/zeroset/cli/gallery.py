@@ -30,7 +30,7 @@ def command(name: str | None, sheet: str | None, cell: int, method: str, device:
 
 
 def _list() -> None:
-    from zeroset.surfaces import entry, names
+    from zeroset.surfaces import entry, names, solids
 
     width = max(map(len, names()))
     for name in names():
@@ -38,17 +38,27 @@ def _list() -> None:
         degree = str(item.degree) if item.degree else "-"
         papers = ", ".join(dict.fromkeys(source.paper for source in item.source))
         click.echo(f"{name:{width}}  {degree:>3}  {papers:10}  {item.title}")
-    click.echo(
-        f"\n{len(names())} surfaces; any other Chmutov surface as chmutov-N. Draw one: zeroset render NAME -o out.png"
-    )
+    for solid in solids().values():
+        papers = ", ".join(source.paper for source in solid.source)
+        click.echo(f"{solid.name:{width}}  {'-':>3}  {papers:10}  {solid.title}, a solid")
+    click.echo(f"\n{len(names())} surfaces, {len(solids())} solids; any other Chmutov surface as chmutov-N.")
+    click.echo("Draw one: zeroset render NAME -o out.png")
 
 
 def _describe(name: str) -> None:
-    from zeroset.surfaces import entry
+    from zeroset.surfaces import GalleryEntry, SolidEntry, entry, solids
 
-    item = entry(name)
-    click.echo(f"{item.title}\n\n  {item.formula}\n")
-    for key, value in {**item.params, **{k: f"{len(v)} numbers" for k, v in item.arrays.items()}}.items():
+    item: GalleryEntry | SolidEntry = solids()[name] if name in solids() else entry(name)
+    click.echo(f"{item.title}\n")
+    if isinstance(item, SolidEntry):
+        click.echo(f"  {item.solid}\n")
+        for key, part in item.parts.items():
+            click.echo(f"  {key}: {part.formula}")
+        values: dict[str, object] = {k: v for part in item.parts.values() for k, v in part.params.items()}
+    else:
+        click.echo(f"  {item.formula}\n")
+        values = {**item.params, **{k: f"{len(v)} numbers" for k, v in item.arrays.items()}}
+    for key, value in values.items():
         click.echo(f"  {key} = {value}")
     for source in item.source:
         figures = f", figures {', '.join(source.figures)}" if source.figures else ""

@@ -13,6 +13,7 @@ from zeroset.errors import ParameterError
 if TYPE_CHECKING:
     from zeroset.scene.coloring import Coloring
     from zeroset.scene.scene import Scene
+    from zeroset.scene.surface import Surface
 
 F = TypeVar("F", bound=Callable[..., Any])
 MATERIAL = ("opacity", "reflectance", "ior")
@@ -44,8 +45,17 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
     changes = {name: look[name] for name in MATERIAL if look[name] is not None}
     coloring = _coloring(scene.material.coloring, look)
     material = dataclasses.replace(scene.material, coloring=coloring, **changes)
+
+    def changed(surface: Surface) -> Surface:
+        own = surface.material
+        if own is None:
+            return surface
+        return surface.with_material(dataclasses.replace(own, **changes, coloring=_coloring(own.coloring, look)))
+
+    shown = scene.surface.mapped(changed)
     around = look["environment"] or scene.environment
-    return dataclasses.replace(scene, material=material, environment=around, shadows=look["shadows"] or scene.shadows)
+    shadows = look["shadows"] or scene.shadows
+    return dataclasses.replace(scene, surface=shown, material=material, environment=around, shadows=shadows)
 
 
 def _coloring(coloring: Coloring | None, look: dict[str, Any]) -> Coloring | None:

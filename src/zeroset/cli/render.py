@@ -20,6 +20,7 @@ from zeroset.cli.source import (
     read_method,
     read_size,
     surface_options,
+    with_isovalues,
 )
 from zeroset.errors import ParameterError
 
@@ -41,13 +42,14 @@ if TYPE_CHECKING:
 @click.option("--fov", type=float, help="Opening angle in degrees, for perspective.")
 @click.option("--height", type=float, help="World length across the picture, for an orthographic camera.")
 @click.option("--orbit", type=float, default=0.0, help="Turn the camera about z by so many degrees.")
+@click.option("--isovalues", metavar="V,V,...", help="Draw f = v for each of these values, instead of f = 0.")
 @look_options
 @click.option("--legend", is_flag=True, help="Draw a colour bar onto the picture; with --color-by.")
 @click.option("--save-scene", metavar="FILE", help="Write the scene as a .toml file too.")
 @click.option(
     "--save-outputs",
     metavar="FILE",
-    help="Write depth, normal, status, steps, t and the value coloured by as a NumPy .npz file too.",
+    help="Write depth, normal, status, steps, t, the value coloured by, and the part met as a NumPy .npz file too.",
 )
 def command(
     source: str,
@@ -65,6 +67,7 @@ def command(
     fov: float | None,
     height: float | None,
     orbit: float,
+    isovalues: str | None,
     legend: bool,
     save_scene: str | None,
     save_outputs: str | None,
@@ -79,9 +82,9 @@ def command(
     for extra in (save_scene, save_outputs):
         if extra is not None:
             existing_folder(extra)
-    scene = find_scene(source, params, bounds)
+    scene = with_isovalues(find_scene(source, params, bounds), isovalues)
     scene = with_look(scene, look)
-    if legend and scene.material.coloring is None:
+    if legend and scene.materials[0].coloring is None:
         raise ParameterError("there is nothing that a legend could explain", hint="try --color-by gaussian-curvature")
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     # What writes pictures is loaded while the compiler works, outside Python's lock.
@@ -124,7 +127,8 @@ def _save(
         from zeroset.atomic import replacing
 
         with replacing(save_outputs) as file:
-            outputs: dict[str, Any] = {name: image.aov(name) for name in image.outputs}
+            names = (name for name in image.outputs if name != "part" or len(scene.materials) > 1)
+            outputs: dict[str, Any] = {name: image.aov(name) for name in names}
             np.savez_compressed(file, **outputs)
 
 

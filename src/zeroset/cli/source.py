@@ -15,6 +15,7 @@ from zeroset.errors import BoundsError, CameraError, ParameterError, ZerosetErro
 from zeroset.scene.bounds import Bounds, Box, parse_bounds
 from zeroset.scene.camera import Camera, fit_camera
 from zeroset.scene.scene import Scene
+from zeroset.scene.several import Drawable, Several
 from zeroset.scene.surface import surface
 
 if TYPE_CHECKING:
@@ -45,7 +46,10 @@ def _named(name: str, values: dict[str, Any]) -> Scene | None:
     from zeroset.errors import UnknownSurfaceError
     from zeroset.expr import VARIABLES
     from zeroset.shelf import gallery
+    from zeroset.surfaces import solids
 
+    if name in solids():
+        return Scene(gallery.solids[name])
     try:
         return Scene(gallery[name])
     except UnknownSurfaceError:
@@ -56,7 +60,28 @@ def _named(name: str, values: dict[str, Any]) -> Scene | None:
 
 
 def _changed(scene: Scene, values: dict[str, Any], limits: Bounds | None) -> Scene:
-    return dataclasses.replace(scene, surface=surface(scene.surface, values, limits))
+    return dataclasses.replace(scene, surface=_with(scene.surface, values, limits))
+
+
+def _with(shown: Drawable, values: dict[str, Any], limits: Bounds | None) -> Drawable:
+    """What is drawn with other values of parameters, inside other bounds."""
+    changed = shown.with_params(**values) if values else shown
+    if limits is None:
+        return changed
+    if isinstance(changed, Several):
+        raise BoundsError("several surfaces have bounds of their own", hint="set them in the scene file")
+    return changed.with_bounds(limits)
+
+
+def with_isovalues(scene: Scene, text: str | None) -> Scene:
+    """The scene with isovalues ``0,0.5,1`` of its surface; as it is where none were asked for."""
+    if text is None:
+        return scene
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise ParameterError(f"cannot read the isovalues {text!r}", hint="write numbers: 0,0.5,1") from None
+    return dataclasses.replace(scene, surface=scene.plain("--isovalues").with_isovalues(values))
 
 
 def read_parameter(text: str) -> tuple[str, Any]:

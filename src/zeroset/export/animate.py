@@ -178,7 +178,7 @@ def _asked(
     from zeroset import __version__
 
     return {
-        "formula": scenes[0].surface.formula,
+        "formula": "; ".join(surface.formula for surface in scenes[0].surface.surfaces),
         "frames": len(scenes),
         "size": f"{size[0]}x{size[1]}",
         "method": repr(method),

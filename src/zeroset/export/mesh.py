@@ -58,7 +58,7 @@ def mesh(
         (True, 0)
     """
     cells = _resolution(resolution)
-    shown = as_scene(surface).surface
+    shown = as_scene(surface).plain("a mesh")
     shown.check_work()
     target = get_device(device)
     type_ = _precision(precision, target)

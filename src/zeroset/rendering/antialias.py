@@ -9,7 +9,7 @@ edges can. Pixels that are drawn because something thinner than a pixel lies in 
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, for_, if_, load, store
-from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, NORMAL, QUEUE_WORDS, QUEUEING
+from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, NORMAL, PART, QUEUE_WORDS, QUEUEING
 from zeroset.rendering.layout import frame_coordinates, lane_at, pixel_place, tile_of
 from zeroset.rendering.primary import EMPTY_TILE
 from zeroset.rendering.view import pixel_ray
@@ -27,7 +27,7 @@ SPREAD = 0.7548776662466927, 0.5698402909980532
 class _Point:
     """What a pixel shows."""
 
-    def __init__(self, builder: KernelBuilder, column: Value, row: Value) -> None:
+    def __init__(self, builder: KernelBuilder, column: Value, row: Value, parts: bool) -> None:
         lane = lane_at(builder, column, row)
         u, v = frame_coordinates(builder, column.convert(F32) + 0.5, row.convert(F32) + 0.5)
         ray = pixel_ray(builder, u, v)
@@ -35,17 +35,22 @@ class _Point:
         self.hit = load(builder.buffer("status", U32), lane).ne(MISS)
         self.place = [t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
         self.normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
+        self.part = load(builder.buffer(PART, U32), lane) if parts else None
 
     def differs(self, other: _Point, pixel: Value) -> Value:
         """Whether there is an edge between two pixels."""
         across = [a - b for a, b in zip(other.place, self.place, strict=True)]
         off = abs(dot(across, self.normal)).maximum(abs(dot(across, other.normal)))
         crease = dot(self.normal, other.normal) < CREASE
+        if self.part is not None and other.part is not None:
+            crease = crease | self.part.ne(other.part)
         return (self.hit ^ other.hit) | (self.hit & other.hit & (crease | (off > pixel * STEP)))
 
 
-def edge_kernel(beams: bool) -> Kernel:
-    """Find the edges among a run of pixels and queue their rays; ``beams``: these start where their tile's beam ended.
+def edge_kernel(beams: bool, parts: bool = False) -> Kernel:
+    """Find the edges among a run of pixels and queue their rays.
+
+    ``beams``: these start where their tile's beam ended; ``parts``: where one part meets another there is an edge too.
 
     Uniforms beside the camera's: ``first``, the first lane; ``samples``, rays a pixel; ``everywhere``, 1 for all
     pixels; ``world_pixel``, a pixel's width in the scene; ``next``, the queue's counter; ``capacity``, its room.
@@ -61,23 +66,23 @@ def edge_kernel(beams: bool) -> Kernel:
         start = load(builder.buffer("tile_start", F32), tile_of(lane)) if beams else constant(0.0, F32)
 
         def look() -> None:
-            edge = everywhere | _at_edge(builder, column, row, width, height)
+            edge = everywhere | _at_edge(builder, column, row, width, height, parts)
             if_(edge, lambda: _queue(builder, lane, column, row, start))
 
         if_(inside & ~thin & (start < EMPTY_TILE), look)
     return builder.kernel
 
 
-def _at_edge(builder: KernelBuilder, column: Value, row: Value, width: Value, height: Value) -> Value:
+def _at_edge(builder: KernelBuilder, column: Value, row: Value, width: Value, height: Value, parts: bool) -> Value:
     pixel = builder.uniform("world_pixel", F32)
     last_column, last_row = width - 1, height - 1
-    here = _Point(builder, column.minimum(last_column), row.minimum(last_row))
+    here = _Point(builder, column.minimum(last_column), row.minimum(last_row), parts)
     edge: Value | None = None
     for right, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         # A pixel at the frame's border is its own neighbour.
         beside = (column + 1).minimum(last_column) if right > 0 else column.maximum(1) - 1 if right < 0 else column
         below = (row + 1).minimum(last_row) if down > 0 else row.maximum(1) - 1 if down < 0 else row
-        other = here.differs(_Point(builder, beside.minimum(last_column), below.minimum(last_row)), pixel)
+        other = here.differs(_Point(builder, beside.minimum(last_column), below.minimum(last_row), parts), pixel)
         edge = other if edge is None else edge | other
     assert edge is not None
     return edge

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.kernel.types import F32
-from zeroset.rendering.buffers import FIELDS, QUEUE_WORDS, VALUE
+from zeroset.rendering.buffers import QUEUE_WORDS, VALUE, fields
 from zeroset.rendering.frame import GBuffer
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import Optics
@@ -71,11 +71,11 @@ class Assembled:
         range: values of the first and the last colour, where a value gives the colour.
     """
 
-    def __init__(self, layout: Layout, palette: Palette | None = None) -> None:
+    def __init__(self, layout: Layout, parts: int = 1, palette: Palette | None = None) -> None:
         self.range = None if palette is None else palette.range
-        fields = FIELDS if palette is None else {**FIELDS, VALUE: F32}
+        kept = fields(parts) if palette is None else {**fields(parts), VALUE: F32}
         shape = (layout.height, layout.width)
-        self._rows = {name: np.zeros(shape, type_.dtype) for name, type_ in fields.items()}
+        self._rows = {name: np.zeros(shape, type_.dtype) for name, type_ in kept.items()}
         self._picture = np.zeros((*shape, 4), np.uint8)
 
     def add(self, band: Band, outputs: GBuffer) -> None:
@@ -84,6 +84,10 @@ class Assembled:
         for name, rows in self._rows.items():
             rows[place] = outputs.rows(name)
         self._picture[place] = outputs.picture()
+
+    def has(self, name: str) -> bool:
+        """Whether there is such an output."""
+        return name in self._rows
 
     def rows(self, name: str) -> npt.NDArray[Any]:
         """One output in rows."""

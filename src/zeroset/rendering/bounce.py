@@ -21,13 +21,12 @@ from zeroset.rendering.buffers import (
     QUEUEING,
     TEXELS,
 )
+from zeroset.rendering.drawn import Drawn
 from zeroset.rendering.layout import Layout
 from zeroset.rendering.shading import Illumination, Optics
 from zeroset.rendering.tint import Tint
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Counted, Device
-from zeroset.scene.bounds import bounds_kind
-from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 
 TILE_LANES = 64
@@ -41,7 +40,7 @@ class Bounces:
 
     Args:
         tracer: makes the programs along with its own.
-        surface: what the rays meet.
+        drawn: what the rays meet.
         method: of the frame, for its offset.
         optics: which rays there are.
         layout: of the frame.
@@ -52,24 +51,25 @@ class Bounces:
     def __init__(
         self,
         tracer: Tracer,
-        surface: Surface,
+        drawn: Drawn,
         method: Method,
         optics: Optics,
         layout: Layout,
         device: Device,
         tint: Tint | None = None,
     ) -> None:
-        field, kind, offset = surface.field, bounds_kind(surface.bounds), method.offset != 0.0
+        shape, offset = drawn.shape, method.offset != 0.0
+        several = shape.parts > 1
 
         def first() -> Kernel:
             from zeroset.rendering.paths import first_path_kernel
 
-            return first_path_kernel(field, offset, kind, optics, tint is not None)
+            return first_path_kernel(shape, offset, optics, tint is not None)
 
         def path() -> Kernel:
             from zeroset.rendering.paths import path_kernel
 
-            return path_kernel(field, offset, kind, optics, tint)
+            return path_kernel(shape, offset, optics, tint)
 
         def resolve() -> Kernel:
             from zeroset.rendering.paths import resolve_kernel
@@ -79,11 +79,12 @@ class Bounces:
         def edges() -> Kernel:
             from zeroset.rendering.antialias import edge_kernel
 
-            return edge_kernel(tracer.beams)
+            return edge_kernel(tracer.beams, several)
 
+        self._edges = f"edges {tracer.beams} {several}"
         if optics.smooth:
-            tracer.add(f"edges {tracer.beams}", edges)
-        own = f"{field.digest} {kind} {offset} {optics}"
+            tracer.add(self._edges, edges)
+        own = f"{shape.digest} {offset} {optics}"
         first_own, path_own = ("", "") if tint is None else (" colored", f" {tint.digest}")
         self._names = f"path_first {own}{first_own}", f"path {own}{path_own}", f"resolve {optics.plain}"
         self._plain = optics.plain
@@ -150,7 +151,7 @@ class Bounces:
 
     def _smooth(self, light: Illumination, common: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
         """Draw pixels anew with many rays: parts of the frame by turns, as many as the queue is sure to hold."""
-        edges = self._tracer.program(f"edges {self._tracer.beams}")
+        edges = self._tracer.program(self._edges)
         lanes = self._layout.lanes
         # At edges there are far fewer: a quarter of all pixels is more than any picture has.
         share = light.samples if light.everywhere else max(light.samples // 4, 1)

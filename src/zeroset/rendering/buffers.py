@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from zeroset.kernel.types import F32, U32
+from zeroset.kernel.types import F32, U32, Type
 
 NORMAL = ("nx", "ny", "nz")
-FIELDS = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32}
+FIELDS: dict[str, Type] = {"t": F32, "nx": F32, "ny": F32, "nz": F32, "status": U32, "steps": U32}
 """The G-buffer's arrays, one element a ray."""
+PART = "part"
+"""Which part was met; only where a shape has more than one."""
 SECOND = {"second_lane": U32, "second_clear": F32}
 """Rays left unresolved: which, and from where on."""
 FROM, ONWARD = "from", "onward"
@@ -42,3 +44,10 @@ PICTURE = "rgba"
 """The picture, packed bytes in rows."""
 BLOCK = 16
 """Pixels in a block of 4x4."""
+MATERIALS = "materials"
+"""The numbers of every part's material, where there is more than one part."""
+
+
+def fields(parts: int) -> dict[str, Type]:
+    """The G-buffer's arrays for a shape of so many parts."""
+    return FIELDS if parts == 1 else FIELDS | {PART: U32}

@@ -12,13 +12,12 @@ import numpy.typing as npt
 
 from zeroset.errors import ArrayShapeError, ParameterError
 from zeroset.kernel.types import F32
+from zeroset.rendering.buffers import PART
+from zeroset.rendering.drawn import as_drawn
 from zeroset.rendering.render import world_tolerance
 from zeroset.rendering.tracer import Tracer
-from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
-from zeroset.scene.bounds import bounds_uniforms
-from zeroset.scene.scene import Scene, as_scene
-from zeroset.scene.surface import Surface
+from zeroset.scene.scene import Shown, as_scene
 from zeroset.solve import Method, resolve_method
 from zeroset.solve.status import MISS
 
@@ -38,6 +37,8 @@ class Hits:
         normal: (N, 3) float32, unit gradient at the hit, towards growing f; zero where there is none.
         steps: (N,) uint32, evaluations of f or of its extension.
         certified: whether the method proves its answers.
+        part: (N,) uint32, which of several surfaces, isovalues (in rising order) or surfaces of a solid was met; 0
+            where there is one alone, and on misses.
     """
 
     t: npt.NDArray[np.float32]
@@ -45,13 +46,14 @@ class Hits:
     normal: npt.NDArray[np.float32]
     steps: npt.NDArray[np.uint32]
     certified: bool
+    part: npt.NDArray[np.uint32]
 
     def __len__(self) -> int:
         return len(self.t)
 
 
 def cast(
-    surface: Surface | Scene | str,
+    surface: Shown,
     origins: npt.ArrayLike,
     directions: npt.ArrayLike,
     t_min: float = 0.0,
@@ -61,7 +63,7 @@ def cast(
     tolerance: float | None = None,
     max_hits: int | None = None,
 ) -> Hits:
-    """Cast rays at a surface and give each one's first hits inside the bounds.
+    """Cast rays at a surface, a solid or a scene and give each one's first hits inside the bounds.
 
     Args:
         surface: what to hit.
@@ -94,13 +96,12 @@ def cast(
     """
     most = _most(max_hits)
     chosen = resolve_method(method)
-    shown = as_scene(surface).surface
-    chosen.check(shown.field)
-    shown.check_work()
+    shown = as_drawn(as_scene(surface).surface)
+    shown.check(chosen)
     target = get_device(device)
     starts, ways = _rays(origins, directions)
     bounds = shown.fitted
-    uniforms = bounds_uniforms(bounds) | parameter_uniforms(shown, chosen)
+    uniforms = shown.limits() | shown.parameters(chosen)
     uniforms |= {
         "tolerance": world_tolerance(tolerance, bounds),
         "near": _end(t_min, "t_min"),
@@ -131,9 +132,9 @@ def _most(max_hits: int | None) -> int | None:
 
 def _in_layers(layers: list[Hits]) -> Hits:
     """Hits of several layers as arrays with a second axis."""
-    names = ("t", "status", "normal", "steps")
-    t, status, normal, steps = (np.stack([getattr(layer, name) for layer in layers], axis=1) for name in names)
-    return Hits(t, status, normal, steps, layers[0].certified)
+    names = ("t", "status", "normal", "steps", "part")
+    t, status, normal, steps, part = (np.stack([getattr(layer, name) for layer in layers], axis=1) for name in names)
+    return Hits(t, status, normal, steps, layers[0].certified, part)
 
 
 def _end(t: float, what: str) -> float:
@@ -195,4 +196,5 @@ def _hits(device: Device, buffers: dict[str, Any], certified: bool) -> Hits:
     status = read["status"].astype(np.uint8)
     t = np.where(status == MISS, np.float32(np.nan), read["t"])
     normal = np.stack([read["nx"], read["ny"], read["nz"]], axis=-1)
-    return Hits(t, status, normal, read["steps"].copy(), certified)
+    part = device.read(buffers[PART]).copy() if PART in buffers else np.zeros(len(t), np.uint32)
+    return Hits(t, status, normal, read["steps"].copy(), certified, part)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,15 +20,16 @@ import numpy.typing as npt
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, U32
 from zeroset.rendering.bounce import Bounces
-from zeroset.rendering.buffers import COUNTERS, FIELDS, LIT, PICTURE, VALUE
+from zeroset.rendering.buffers import COUNTERS, LIT, MATERIALS, PICTURE, VALUE, fields
 from zeroset.rendering.coloring import Colors
+from zeroset.rendering.drawn import Drawn
 from zeroset.rendering.layout import TILE, Layout
+from zeroset.rendering.materials import Table, material_table
 from zeroset.rendering.shading import Illumination, Lighting
 from zeroset.rendering.tint import Palette, Tint
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device
-from zeroset.scene.bounds import bounds_kind
-from zeroset.scene.surface import Surface
+from zeroset.scene.light import Material
 from zeroset.solve.method import Method
 
 Progress = Callable[[float], None]
@@ -46,9 +47,8 @@ MOST_AT_ONCE = 1 << 20
 class Structure:
     """What shapes a frame's kernels and buffers."""
 
-    field: str
+    shape: str
     method: str
-    bounds: str
     lighting: Lighting
     layout: Layout
     device: int
@@ -70,6 +70,10 @@ class GBuffer:
         self._device = device
         self._buffers = buffers
         self._lock = threading.Lock()
+
+    def has(self, name: str) -> bool:
+        """Whether there is such an output."""
+        return name in self._buffers
 
     def rows(self, name: str) -> npt.NDArray[Any]:
         """One output in rows."""
@@ -93,7 +97,7 @@ class Frame:
 
     def __init__(
         self,
-        surface: Surface,
+        drawn: Drawn,
         method: Method,
         lighting: Lighting,
         layout: Layout,
@@ -104,24 +108,28 @@ class Frame:
         def shader() -> Kernel:
             from zeroset.rendering.shade import shade_kernel
 
-            return shade_kernel(lighting)
+            return shade_kernel(lighting, drawn.parts)
 
         self.layout = layout
         self.device = device
         self.lock = threading.Lock()
         optics = lighting.optics
         ends = optics is not None and not optics.plain
-        self._tracer = Tracer(surface, method, device, True, shadows=lighting.shadows, ends=ends)
-        self._shader = f"shade {lighting}"
+        self._tracer = Tracer(drawn, method, device, True, shadows=lighting.shadows, ends=ends)
+        self._shader = f"shade {lighting} {drawn.parts > 1}"
         self._bounces: Bounces | None = None
-        self._colors = None if tint is None else Colors(self._tracer, surface, method, tint, layout, device)
+        self._colors = (
+            None if tint is None else Colors(self._tracer, drawn.surfaces[0][1], method, tint, layout, device)
+        )
         self._shades = optics is None or optics.plain
         if self._shades:
             self._tracer.add(self._shader, shader)
         if optics is not None:
-            self._bounces = Bounces(self._tracer, surface, method, optics, layout, device, tint)
+            self._bounces = Bounces(self._tracer, drawn, method, optics, layout, device, tint)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
+        self._fields = fields(drawn.parts)
+        self._materials = Table(device)
         self.picture = device.allocate(U32, layout.width * layout.height)
         """The picture's pixels in rows, for those who show them without reading them."""
         self._shown: weakref.ref[GBuffer] | None = None
@@ -136,29 +144,33 @@ class Frame:
 
     def draw(
         self,
-        surface: Surface,
+        drawn: Drawn,
         uniforms: Mapping[str, float],
         thin: bool,
         progress: Progress | None = None,
         draft: bool = False,
         light: Illumination | None = None,
+        materials: Sequence[Material] = (),
         palette: Palette | None = None,
     ) -> GBuffer:
         """Run the passes; gives the outputs, which a GPU may still be working on.
 
         Args:
-            surface: of this frame's structure.
+            drawn: of this frame's structure.
             uniforms: everything that its kernels read.
             thin: whether to draw thin parts.
             progress: told the share that is done.
             draft: leave out second looks and thin parts, which some pixels need and every picture can do without.
             light: what shadows and rays beyond the first hit need.
+            materials: of each part, where there are several.
             palette: the colours of values, for a frame that has them.
         """
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
             shown.keep()
-        bound = self._tracer.begin(surface, uniforms, self._buffers, self.layout.tiles)
+        bound = self._tracer.begin(drawn, uniforms, self._buffers, self.layout.tiles)
+        if drawn.parts > 1:
+            bound = {**bound, MATERIALS: self._materials.holding(material_table(materials))}
         lanes = self.layout.lanes
         part = MOST_AT_ONCE if progress is None else max(1, self.layout.tiles // SLICES) * TILE * TILE
         for first in range(0, lanes, part):
@@ -169,14 +181,14 @@ class Frame:
             self._tracer.first_look(uniforms, bound, first, min(part, lanes - first))
             self.device.submit()
         if not draft:
-            self._tracer.second_look(surface, uniforms, bound)
+            self._tracer.second_look(drawn, uniforms, bound)
         if thin and not draft:
             self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
-        kept = FIELDS
+        kept = self._fields
         range_: tuple[float, float] | None = None
         if self._colors is not None and palette is not None:
-            uniforms, bound = self._colors.run(surface, palette, uniforms, bound)
-            kept, range_ = {**FIELDS, VALUE: F32}, self._colors.range
+            uniforms, bound = self._colors.run(drawn.surfaces[0][1], palette, uniforms, bound)
+            kept, range_ = {**self._fields, VALUE: F32}, self._colors.range
         if self._shades:
             if light is not None and LIT in self._buffers:
                 self._tracer.shadows(light.shadows, uniforms, bound)
@@ -199,7 +211,7 @@ KEPT_LANES = 1 << 23
 
 
 def frame_for(
-    surface: Surface,
+    drawn: Drawn,
     method: Method,
     lighting: Lighting,
     layout: Layout,
@@ -208,13 +220,12 @@ def frame_for(
     tint: Tint | None = None,
 ) -> Frame:
     """The frame of a structure, kept from an earlier picture where there was one; its programs are being compiled."""
-    kind = bounds_kind(surface.bounds)
     colored = "" if tint is None else tint.digest
-    structure = Structure(surface.field.digest, method.structure(), kind, lighting, layout, id(device), colored)
+    structure = Structure(drawn.shape.digest, method.structure(), lighting, layout, id(device), colored)
     with _frames_lock:
         frame = _frames.get(structure)
         if frame is None:
-            frame = Frame(surface, method, lighting, layout, device, draft, tint)
+            frame = Frame(drawn, method, lighting, layout, device, draft, tint)
             _frames[structure] = frame
         else:
             frame.compile(draft)

@@ -1,21 +1,51 @@
-"""The G-buffer: what every tracing kernel writes for its ray, and the list of rays that deserve a second look."""
+"""The G-buffer: what every tracing kernel writes for its ray, and the list of rays that deserve a second look.
+
+Where there are several parts, what was met is the one of them that the search has left as possible, and of several such
+the one that the point is nearest to, by |f| over the length of the gradient.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
-from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, if_, lift, store
-from zeroset.rendering.buffers import COUNTERS, END, FIELDS, NORMAL, SECOND
+from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, constant, if_, lift, store
+from zeroset.rendering.buffers import COUNTERS, END, NORMAL, PART, SECOND, fields
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.problem import Answer
+from zeroset.solve.shape import Leaf
 from zeroset.solve.status import MISS, UNRESOLVED
+from zeroset.solve.subject import LoweredBody, Subject
+
+FAR = 1e30
+"""Distance of what cannot be told."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Slope:
+    """f at a point, its gradient up to ``scale`` and ``inverse``, which together are one over the gradient's length."""
+
+    value: Value
+    gradient: tuple[Value, Value, Value]
+    scale: Value
+    inverse: Value
+    usable: Value
+
+    @property
+    def unit(self) -> tuple[Value, Value, Value]:
+        a, b, c = (x * self.inverse for x in self.gradient)
+        return a, b, c
 
 
 def gradient_at(lowered: Lowered, point: Sequence[Value]) -> tuple[Value, Value, Value]:
     """The unit gradient of f at a point; zero where f has none."""
+    return _slope_at(lowered, point).unit
+
+
+def _slope_at(lowered: Lowered, point: Sequence[Value]) -> _Slope:
     real = RealSystem(FORMAT32 if lowered.type == F32 else FORMAT64)
     dual = DualSystem(real, 3)
     f = lowered.evaluate(dual, *(dual.variable(real.exact(p), i) for i, p in enumerate(point)))
@@ -26,7 +56,7 @@ def gradient_at(lowered: Lowered, point: Sequence[Value]) -> tuple[Value, Value,
     scale = 1.0 / usable.select(largest, 1.0)
     a, b, c = (usable.select(x * scale, 0.0) for x in g)
     inverse = 1.0 / a.fma(a, b.fma(b, c * c)).maximum(1e-10).sqrt()
-    return a * inverse, b * inverse, c * inverse
+    return _Slope(lift(f.value.value, lowered.type), (a, b, c), scale, inverse, usable)
 
 
 def facing_back(lowered: Lowered, ray: Ray, answer: Answer) -> tuple[Value, ...]:
@@ -34,11 +64,52 @@ def facing_back(lowered: Lowered, ray: Ray, answer: Answer) -> tuple[Value, ...]
 
     Beside an edge the gradient is mostly rounding; it is turned to the side that the ray was proven to come from.
     """
-    point = [answer.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
-    normal = gradient_at(lowered, point)
-    along = sum((n * d for n, d in zip(normal, ray.direction, strict=True)), start=lift(0.0, lowered.type))
+    return _turned(gradient_at(lowered, _point(ray, answer)), ray, answer)
+
+
+def _point(ray: Ray, answer: Answer) -> list[Value]:
+    return [answer.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
+
+
+def _turned(normal: Sequence[Value], ray: Ray, answer: Answer) -> tuple[Value, ...]:
+    along = sum((n * d for n, d in zip(normal, ray.direction, strict=True)), start=lift(0.0, answer.t.type))
     wrong = along * answer.side > 0.0
     return tuple(wrong.select(-n, n).convert(F32) for n in normal)
+
+
+def meet(subject: Subject, ray: Ray, answer: Answer) -> tuple[Value, ...]:
+    """The normal of what was found, f32, and its part, u32, where there is more than one."""
+    if subject.shape.plain:
+        return facing_back(subject.bodies[0].first, ray, answer)
+    assert answer.mark is not None
+    mark, point, none = answer.mark, _point(ray, answer), constant(0, U32)
+    far = [constant(v, subject.type) for v in (2.0 * FAR, 0.0, 0.0, 0.0)]
+    best: tuple[Value, ...] = (*far, none)
+    for body, leaf, sign in subject.leaves():
+
+        def near(body: LoweredBody = body, leaf: Leaf = leaf, sign: int = sign) -> tuple[Value, ...]:
+            return _near(body, leaf, sign, mark, point)
+
+        here = if_((mark & leaf.bits).ne(0), near, lambda: (*far, none))
+        nearer = here[0] < best[0]
+        best = tuple(nearer.select(a, b) for a, b in zip(here, best, strict=True))
+    part = () if subject.shape.parts == 1 else (best[4],)
+    return *_turned(best[1:4], ray, answer), *part
+
+
+def _near(body: LoweredBody, leaf: Leaf, sign: int, mark: Value, point: Sequence[Value]) -> tuple[Value, ...]:
+    """How far a point is from a leaf, about; the leaf's unit normal there, out of the solid; and the part."""
+    slope = _slope_at(body.leaf(leaf), point)
+    normal = slope.unit if sign > 0 else tuple(-n for n in slope.unit)
+    off, part = abs(slope.value), constant(leaf.part, U32)
+    if leaf.levels:
+        off = constant(FAR, body.type)
+        for i, value in enumerate(body.values(leaf)):
+            here = (mark & (1 << (leaf.part + i))).ne(0).select(abs(slope.value - value), FAR)
+            part = (here < off).select(constant(leaf.part + i, U32), part)
+            off = off.minimum(here)
+    distance = slope.usable.select(off * (slope.scale * slope.inverse), FAR).minimum(FAR)
+    return distance, *normal, part
 
 
 def behind(answer: Answer) -> Value:
@@ -47,18 +118,20 @@ def behind(answer: Answer) -> Value:
     return abs(end).fma(2.0**-22, end)
 
 
-def write(builder: KernelBuilder, lowered: Lowered, lane: Value, ray: Ray, answer: Answer, ends: bool = False) -> None:
+def write(builder: KernelBuilder, subject: Subject, lane: Value, ray: Ray, answer: Answer, ends: bool = False) -> None:
     """Store an answer, with the normal where something was found; ``ends``: and what lies around it."""
     if ends:
         for name, value in zip(END, (answer.clear.convert(F32), behind(answer)), strict=True):
             store(builder.buffer(name, F32, writable=True), lane, value)
-    buffers = {name: builder.buffer(name, type_, writable=True) for name, type_ in FIELDS.items()}
+    buffers = {name: builder.buffer(name, type_, writable=True) for name, type_ in fields(subject.shape.parts).items()}
+
+    names = NORMAL if subject.shape.parts == 1 else (*NORMAL, PART)
 
     def nowhere() -> tuple[float, ...]:
-        return (0.0, 0.0, 0.0)
+        return (0.0, 0.0, 0.0) if len(names) == 3 else (0.0, 0.0, 0.0, 0)
 
     found = answer.status.ne(MISS)
-    for name, value in zip(NORMAL, if_(found, lambda: facing_back(lowered, ray, answer), nowhere), strict=True):
+    for name, value in zip(names, if_(found, lambda: meet(subject, ray, answer), nowhere), strict=True):
         store(buffers[name], lane, value)
     store(buffers["t"], lane, found.select(answer.t, 0.0).convert(F32))
     store(buffers["status"], lane, answer.status)

@@ -14,13 +14,13 @@ import numpy.typing as npt
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
 from zeroset.rendering.bands import Assembled
-from zeroset.rendering.buffers import NORMAL, VALUE
+from zeroset.rendering.buffers import NORMAL, PART, VALUE
 from zeroset.rendering.frame import GBuffer
 from zeroset.scene.coloring import Coloring
 from zeroset.shade.colormap import LARGEST
 from zeroset.solve.status import MISS, UNRESOLVED
 
-AOVS = ("depth", "normal", "status", "steps", "t")
+AOVS = ("depth", "normal", "part", "status", "steps", "t")
 _COLOR = 'say by what: render(..., color_by="gaussian-curvature")'
 
 
@@ -131,7 +131,8 @@ class Image:
 
         Args:
             name: ``depth`` (distance along the viewing direction, inf where nothing is hit), ``t`` (nan there),
-                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved), ``steps``, or ``value``, the
+                ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved), ``steps``, ``part`` (which of
+                several surfaces, isovalues or surfaces of a solid; 0 where there is one alone), or ``value``, the
                 quantity that the surface is coloured by (nan where there is none).
         """
         if name == VALUE and self.coloring is None:
@@ -149,6 +150,8 @@ class Image:
         if name in ("t", "depth"):
             missing = np.float32(np.nan if name == "t" else np.inf)
             return np.where(self._outputs.rows("status") == MISS, missing, self._outputs.rows("t"))
+        if name == "part" and not self._outputs.has(PART):
+            return np.zeros(self.size[::-1], np.uint32)
         return self._outputs.rows(name)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:

@@ -7,19 +7,26 @@ intervals of the search; as long as the next one touches the last it is the same
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, load, store, while_
 from zeroset.rendering.buffers import FROM, NOTHING, ONWARD, SECOND
 from zeroset.rendering.gbuffer import ask_second_look, behind, write
-from zeroset.rendering.primary import EMPTY_TILE, camera_ray, given_ray, in_doubles, problem_on, t_range
-from zeroset.solve.field import Field, Lowered
+from zeroset.rendering.primary import (
+    EMPTY_TILE,
+    camera_ray,
+    exact_ray,
+    given_ray,
+    in_doubles,
+    problem_on,
+    stride,
+    t_range,
+)
 from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
-from zeroset.solve.search import search
+from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS, UNRESOLVED
-from zeroset.solve.systems import automatic_system
-from zeroset.solve.walk import Striding
+from zeroset.solve.subject import LoweredBody, Subject
 
 DONE = EMPTY_TILE
 """Where the search goes on along a ray that has nothing more on it: beyond every bounds."""
@@ -29,44 +36,77 @@ MOST_MERGED = 256
 """Unresolved intervals that are passed over before a new place is counted all the same."""
 
 
-def layer_kernel(field: Field, method: Method, kind: str, pixels: bool, second: bool) -> Kernel:
+def layer_kernel(shape: Shape, method: Method, pixels: bool, second: bool) -> Kernel:
     """The next find along each ray."""
     with KernelBuilder("layer") as builder:
         lane = builder.index()
-        lowered = Lowered(field, builder, offset=method.offset != 0.0)
+        subject = Subject(shape, builder, offset=method.offset != 0.0)
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
-        problem = problem_on(builder, lowered, kind, ray, near.maximum(start), far, None)
-        answer = beyond(problem, method.trace, start)
-        write(builder, lowered, lane, ray, answer)
+        search = _Search(subject, lambda body: problem_on(body, ray, near.maximum(start), far, None), method.trace)
+        answer = beyond(search, start)
+        write(builder, subject, lane, ray, answer)
         _go_on(builder, lane, answer)
         if second:
             ask_second_look(builder, lane, answer)
     return builder.kernel
 
 
-def second_layer_kernel(field: Field, offset: bool, kind: str, pixels: bool) -> Kernel:
+def second_layer_kernel(shape: Shape, offset: bool, pixels: bool) -> Kernel:
     """The rays on the list again, in f64, from where the layer before ended."""
     with KernelBuilder("second_layer") as builder:
         place = builder.index()
         lane, clear = (load(builder.buffer(name, type_), place) for name, type_ in SECOND.items())
-        lowered = Lowered(field, builder, F64, offset)
+        subject = Subject(shape, builder, F64, offset)
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
-        rough = problem_on(builder, lowered, kind, ray, near.maximum(start), far, None)
-        problem = in_doubles(rough, clear)
-        system = automatic_system(field, problem.fmt)
-        answer = beyond(problem, lambda p: search(p, system, Striding()), start.convert(F64))
-        write(builder, lowered, lane, problem.ray, answer)
+        search = _Search(
+            subject, lambda body: in_doubles(problem_on(body, ray, near.maximum(start), far, None), clear), stride
+        )
+        answer = beyond(search, start)
+        write(builder, subject, lane, exact_ray(ray), answer)
         _go_on(builder, lane, answer)
     return builder.kernel
 
 
-def beyond(problem: Problem, trace: Callable[[Problem], Answer], start: Value) -> Answer:
+@dataclass(frozen=True, slots=True)
+class _Search:
+    """What is searched, and how.
+
+    Attributes:
+        subject: the bodies.
+        problem_of: the search for one of them.
+        trace: searches.
+    """
+
+    subject: Subject
+    problem_of: Callable[[LoweredBody], Problem]
+    trace: Callable[[Problem], Answer]
+
+    def after(self, at: Value) -> Answer:
+        """The first find behind a place on the ray."""
+        return self.subject.nearest(self._from(at), self.trace)
+
+    def _from(self, at: Value) -> Callable[[LoweredBody], Problem]:
+        if self.subject.shape.plain:
+            return lambda body: replace(self.problem_of(body), t0=at)
+
+        def later(body: LoweredBody) -> Problem:
+            problem = self.problem_of(body)
+            return replace(problem, t0=problem.t0.maximum(at))
+
+        return later
+
+
+def beyond(search: _Search, start: Value) -> Answer:
     """The first find that is not still the place that the layer before left at ``start``; any, in the first layer."""
-    before = start > NOTHING * 0.5
+    problem, *others = (search.problem_of(body) for body in search.subject.bodies)
+    begin = problem.t0
+    for other in others:
+        begin = begin.minimum(other.t0)
+    before = start.convert(problem.type) > NOTHING * 0.5
     reach = problem.tolerance * TOUCHING
     none, zero = constant(0, U32), problem.number(0.0)
 
@@ -74,14 +114,15 @@ def beyond(problem: Problem, trace: Callable[[Problem], Answer], start: Value) -
         return again
 
     def look(again: Value, count: Value, at: Value, *found: Value) -> tuple[Value, ...]:
-        answer = trace(replace(problem, t0=at))
+        answer = search.after(at)
         touches = before & answer.status.eq(UNRESOLVED) & (answer.clear - at <= reach)
         more = touches & (count < MOST_MERGED) & (answer.end > at)
         spent = found[2] + answer.steps
-        return more, count + 1, answer.end, answer.t, answer.status, spent, answer.clear, answer.side, answer.end
+        mark = () if answer.mark is None else (answer.mark,)
+        return more, count + 1, answer.end, answer.t, answer.status, spent, answer.clear, answer.side, answer.end, *mark
 
-    found = (problem.t0, constant(MISS, U32), none, problem.t0, zero, problem.t0)
-    state = while_(looking, look, constant(True, BOOL), none, problem.t0, *found)
+    found = (begin, constant(MISS, U32), none, begin, zero, begin, *([] if search.subject.shape.plain else [none]))
+    state = while_(looking, look, constant(True, BOOL), none, begin, *found)
     return Answer(*state[3:])
 
 

@@ -22,15 +22,17 @@ from zeroset.rendering.buffers import (
     LIGHT_WORDS,
     LIGHTS,
     NORMAL,
+    PART,
     QUEUE_WORDS,
     QUEUED,
     QUEUEING,
     TEXELS,
     VALUE,
 )
-from zeroset.rendering.gbuffer import behind, facing_back
+from zeroset.rendering.gbuffer import behind, meet
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
-from zeroset.rendering.primary import problem_on
+from zeroset.rendering.materials import material_at
+from zeroset.rendering.primary import problem_on, stride
 from zeroset.rendering.quantity import Measure, Met
 from zeroset.rendering.shade import by_value
 from zeroset.rendering.shading import Optics
@@ -41,11 +43,11 @@ from zeroset.shade.environment import cube_color
 from zeroset.shade.reflectance import Face, dot, face, normalised
 from zeroset.shade.tone import encode, pack
 from zeroset.solve.clipping import clipped
-from zeroset.solve.field import Field, Lowered, Ray
-from zeroset.solve.search import search
+from zeroset.solve.field import Ray
+from zeroset.solve.problem import Answer, Problem
+from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS
-from zeroset.solve.systems import automatic_system
-from zeroset.solve.walk import Striding
+from zeroset.solve.subject import Subject
 
 UNIT = float(1 << 20)
 """What a full channel counts in a pixel's sum; 4,096 times as much fits."""
@@ -64,6 +66,7 @@ class Found:
         normal: unit gradient.
         clear: nothing was met up to here.
         end: what was met is behind the ray here.
+        part: which part it is, where there is more than one.
         value: what it is coloured by; None where it is not.
     """
 
@@ -72,6 +75,7 @@ class Found:
     normal: Sequence[Value]
     clear: Value
     end: Value
+    part: Value | None = None
     value: Value | None = None
 
 
@@ -85,73 +89,72 @@ class _Carried:
     weight: tuple[Value, Value, Value]
 
 
-def first_path_kernel(field: Field, offset: bool, kind: str, optics: Optics, colored: bool = False) -> Kernel:
+def first_path_kernel(shape: Shape, offset: bool, optics: Optics, colored: bool = False) -> Kernel:
     """Shade what the camera's rays have met, and send on what comes of it."""
     with KernelBuilder("path_first") as builder:
         lane = builder.index()
         ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
         t, clear, end = (load(builder.buffer(name, F32), lane) for name in ("t", *END))
         normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
+        part = load(builder.buffer(PART, U32), lane) if shape.parts > 1 else None
         value = load(builder.buffer(VALUE, F32), lane) if colored else None
-        found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end, value)
+        found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end, part, value)
         one = constant(1.0, F32)
-        respond = _Response(builder, Lowered(field, builder, offset=offset), kind, optics, alone=True)
+        respond = _Response(Subject(shape, builder, offset=offset), optics, alone=True)
         respond.to(_Carried(lane, ray, constant(0.0, F32), (one, one, one)), found)
     return builder.kernel
 
 
-def path_kernel(field: Field, offset: bool, kind: str, optics: Optics, tint: Tint | None = None) -> Kernel:
+def path_kernel(shape: Shape, offset: bool, optics: Optics, tint: Tint | None = None) -> Kernel:
     """One run: the rays of a queue are traced and shaded, and what they send on goes to the next queue."""
     with KernelBuilder("path") as builder:
         place = builder.index()
         # More rays may have been counted than there was room for.
+        # Only a plain surface is coloured by a quantity.
+        field = shape.bodies[0].leaves[0][0].field
         measure = None if tint is None else Measure(builder, field, offset, tint)
         room = place < builder.uniform("capacity", U32)
-        if_(room, lambda: _follow(builder, place, (field, offset), kind, optics, measure))
+        if_(room, lambda: _follow(builder, place, (shape, offset), optics, measure))
     return builder.kernel
 
 
 def _follow(
-    builder: KernelBuilder,
-    place: Value,
-    surface: tuple[Field, bool],
-    kind: str,
-    optics: Optics,
-    measure: Measure | None,
+    builder: KernelBuilder, place: Value, traced: tuple[Shape, bool], optics: Optics, measure: Measure | None
 ) -> None:
-    field, offset = surface
+    shape, offset = traced
     queue = builder.buffer(QUEUED, U32)
     words = [load(queue, place * QUEUE_WORDS + i) for i in range(QUEUE_WORDS - 1)]
     numbers = [word.bitcast(F32) for word in words[1:]]
     ray = Ray(tuple(numbers[:3]), tuple(numbers[3:6]))
     start, weight = numbers[6], (numbers[7], numbers[8], numbers[9])
-    lowered = Lowered(field, builder, offset=offset)
-    problem = problem_on(builder, lowered, kind, ray, start, builder.uniform("farthest", F32), None)
-    ahead, _ = clipped(problem)
-    answer = search(ahead, automatic_system(field, problem.fmt), Striding())
+    subject = Subject(shape, builder, offset=offset)
+    farthest = builder.uniform("farthest", F32)
+
+    def ahead(problem: Problem) -> Answer:
+        return stride(clipped(problem)[0])
+
+    answer = subject.nearest(lambda body: problem_on(body, ray, start, farthest, None), ahead)
     hit = answer.status.ne(MISS)
     zero = constant(0.0, F32)
-    normal = if_(hit, lambda: facing_back(lowered, ray, answer), lambda: (zero, zero, zero))
-    value = None
+    nothing = (zero, zero, zero, *([] if shape.parts == 1 else [constant(0, U32)]))
+    normal = if_(hit, lambda: meet(subject, ray, answer), lambda: nothing)
+    part, value = normal[3] if shape.parts > 1 else None, None
     if measure is not None:
         met, known = Met(ray, answer.t, answer.steps), measure
         (value,) = if_(hit, lambda: (known.at(met),), lambda: (zero,))
-    respond = _Response(builder, lowered, kind, optics)
-    found = Found(hit, answer.t, normal, answer.clear, behind(answer), value)
+    respond = _Response(subject, optics)
+    found = Found(hit, answer.t, normal[:3], answer.clear, behind(answer), part, value)
     respond.to(_Carried(words[0], ray, start, weight), found)
 
 
 class _Response:
     """What comes of a ray: colour for its pixel, and further rays."""
 
-    def __init__(
-        self, builder: KernelBuilder, lowered: Lowered, kind: str, optics: Optics, alone: bool = False
-    ) -> None:
+    def __init__(self, subject: Subject, optics: Optics, alone: bool = False) -> None:
         # Whether no other lane of this run has the same pixel.
         self.alone = alone
-        self.builder = builder
-        self.lowered = lowered
-        self.kind = kind
+        self.builder = subject.builder
+        self.subject = subject
         self.optics = optics
 
     def uniform(self, name: str) -> Value:
@@ -182,15 +185,16 @@ class _Response:
         ray, optics = carried.ray, self.optics
         point = [found.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
         toward_eye = [-d for d in normalised(ray.direction)]
+        number = material_at(self.builder, found.part)
         albedo = None if found.value is None else by_value(self.builder, found.value)
-        seen = face(self.uniform, found.normal, toward_eye, albedo)
+        seen = face(number, found.normal, toward_eye, albedo)
         color = self._lights(point, seen)
-        opacity = self.uniform("opacity") if optics.through else constant(1.0, F32)
-        mirror = self.uniform("reflectance") if optics.mirror else constant(0.0, F32)
+        opacity = number("opacity") if optics.through else constant(1.0, F32)
+        mirror = number("reflectance") if optics.mirror else constant(0.0, F32)
         passing = (1.0 - opacity) * (1.0 - mirror)
         self._add(carried, [c * (opacity * (1.0 - mirror)) for c in color])
         if optics.bends:
-            bent, total = self._bent(found.normal, toward_eye, seen.normal)
+            bent, total = self._bent(number("ior"), found.normal, toward_eye, seen.normal)
             mirror, passing = total.select(mirror + passing, mirror), total.select(0.0, passing)
             self._send(carried, self._from(carried, found.end, bent), passing)
         elif optics.through:
@@ -209,7 +213,7 @@ class _Response:
             light = normalised(toward)
             if self.optics.shadows:
                 facing = dot(seen.normal, light) > 0.0
-                reached = way_is_free(self.builder, self.lowered, self.kind, point, toward, facing)
+                reached = way_is_free(self.subject, point, toward, facing)
                 tint = [reached.select(c, 0.0) for c in tint]
             lit: tuple[Value, ...] = seen.lit(color, light, tint)
             return lit
@@ -217,10 +221,9 @@ class _Response:
         return for_(self.builder.uniform("lights", U32), one, *seen.ambient)
 
     def _bent(
-        self, normal: Sequence[Value], toward_eye: Sequence[Value], seen: Sequence[Value]
+        self, index: Value, normal: Sequence[Value], toward_eye: Sequence[Value], seen: Sequence[Value]
     ) -> tuple[list[Value], Value]:
         """The refracted direction by Snell's law, and where there is none but total reflection."""
-        index = self.uniform("ior")
         # Solid is where f < 0: a ray that sees the side towards growing f goes in.
         entering = dot(normal, toward_eye) >= 0.0
         ratio = entering.select(1.0 / index, index)

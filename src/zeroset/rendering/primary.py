@@ -16,11 +16,13 @@ from zeroset.rendering.layout import TILE, pixel_coordinates, tile_coordinates, 
 from zeroset.rendering.view import frame_patch, pixel_ray
 from zeroset.scene.clip import clip
 from zeroset.solve.beam import trace_beam
-from zeroset.solve.field import Field, Lowered, Ray
+from zeroset.solve.field import Ray
 from zeroset.solve.method import Method
-from zeroset.solve.problem import Problem
+from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
+from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS
+from zeroset.solve.subject import LoweredBody, Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
@@ -41,18 +43,18 @@ def given_ray(builder: KernelBuilder, lane: Value) -> Ray:
     return Ray(origin, direction)
 
 
-def problem_on(
-    builder: KernelBuilder, lowered: Lowered, kind: str, ray: Ray, near: Value, far: Value, step: Value | None
-) -> Problem:
+def problem_on(body: LoweredBody, ray: Ray, near: Value, far: Value, step: Value | None) -> Problem:
     """The search inside the bounds, from near to far; a step of an eighth of the stretch where none is given."""
-    t0, t1 = clip(builder, kind, ray.origin, ray.direction)
+    builder = body.builder
+    t0, t1 = clip(builder, body.body.kind, ray.origin, ray.direction, body.body.prefix)
     t0, t1 = t0.maximum(near), t1.minimum(far)
     d = ray.direction
     length = d[0].fma(d[0], d[1].fma(d[1], d[2] * d[2])).sqrt()
     # A tolerance below t's own resolution would ask for steps that do not move.
     resolution = abs(t0).maximum(abs(t1)) * 2.0**-20
     tolerance = (builder.uniform("tolerance", F32) / length).maximum(resolution)
-    return Problem(lowered, ray, t0, t1, tolerance, (t1 - t0) * 0.125 if step is None else step)
+    step = (t1 - t0) * 0.125 if step is None else step
+    return Problem(body.first, ray, t0, t1, tolerance, step, None if body.body.plain else body)
 
 
 def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
@@ -60,15 +62,12 @@ def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
     return builder.uniform("near", F32), builder.uniform("far", F32)
 
 
-def trace_kernel(
-    field: Field, method: Method, kind: str, pixels: bool, beams: bool, second: bool, ends: bool = False
-) -> Kernel:
+def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second: bool, ends: bool = False) -> Kernel:
     """One search a ray.
 
     Args:
-        field: f.
+        shape: what is searched.
         method: how to search.
-        kind: of bounds.
         pixels: whether rays are the camera's.
         beams: whether a ray starts where its tile's beam ended.
         second: whether it may ask for a second look.
@@ -76,7 +75,7 @@ def trace_kernel(
     """
     with KernelBuilder("primary" if pixels else "cast") as builder:
         lane = builder.index() + builder.uniform("first", U32)
-        lowered = Lowered(field, builder, offset=method.offset != 0.0)
+        subject = Subject(shape, builder, offset=method.offset != 0.0)
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
         step = None
@@ -84,8 +83,8 @@ def trace_kernel(
             tile = tile_of(lane)
             near = load(builder.buffer("tile_start", F32), tile)
             step = load(builder.buffer("tile_step", F32), tile)
-        answer = method.trace(problem_on(builder, lowered, kind, ray, near, far, step))
-        write(builder, lowered, lane, ray, answer, ends)
+        answer = subject.nearest(lambda body: problem_on(body, ray, near, far, step), method.trace)
+        write(builder, subject, lane, ray, answer, ends)
         if second:
             ask_second_look(builder, lane, answer)
         if beams:
@@ -93,21 +92,29 @@ def trace_kernel(
     return builder.kernel
 
 
-def second_kernel(field: Field, offset: bool, kind: str, pixels: bool, ends: bool = False) -> Kernel:
+def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: bool = False) -> Kernel:
     """The rays on the list again, in f64."""
     with KernelBuilder("second") as builder:
         place = builder.index()
         lane, clear = (load(builder.buffer(name, type_), place) for name, type_ in SECOND.items())
-        lowered = Lowered(field, builder, F64, offset)
+        subject = Subject(shape, builder, F64, offset)
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
-        rough = problem_on(builder, lowered, kind, ray, near, far, None)
-        problem = in_doubles(rough, clear)
-        answer = search(problem, automatic_system(field, problem.fmt), Striding())
+        answer = subject.nearest(lambda body: in_doubles(problem_on(body, ray, near, far, None), clear), stride)
         # Even where it stays unresolved, f64 comes closer to a double root than f32 could see.
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
-        write(builder, lowered, lane, problem.ray, replace(answer, steps=spent), ends)
+        write(builder, subject, lane, exact_ray(ray), replace(answer, steps=spent), ends)
     return builder.kernel
+
+
+def stride(problem: Problem) -> Answer:
+    """The search that all but the primary rays take, whatever the method."""
+    return search(problem, automatic_system(problem.field, problem.fmt), Striding())
+
+
+def exact_ray(ray: Ray) -> Ray:
+    """The same ray in f64."""
+    return Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))
 
 
 def in_doubles(rough: Problem, clear: Value) -> Problem:
@@ -117,22 +124,22 @@ def in_doubles(rough: Problem, clear: Value) -> Problem:
         rough: the search in f32, whose ``lowered`` is f in f64.
         clear: up to where it had proven that there is nothing.
     """
-    ray = Ray(tuple(v.convert(F64) for v in rough.ray.origin), tuple(v.convert(F64) for v in rough.ray.direction))
+    ray = exact_ray(rough.ray)
     # A little earlier than where the first look got stuck, to learn the sign that f has there.
     earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
     start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
     # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
-    return Problem(rough.lowered, ray, start, end, tolerance * FINER, tolerance * 4.0)
+    return Problem(rough.lowered, ray, start, end, tolerance * FINER, tolerance * 4.0, rough.body)
 
 
-def beam_kernel(field: Field, offset: bool, kind: str) -> Kernel:
+def beam_kernel(shape: Shape, offset: bool) -> Kernel:
     """One beam a tile."""
     with KernelBuilder("beams") as builder:
         lane = builder.index()
-        lowered = Lowered(field, builder, offset=offset)
+        subject = Subject(shape, builder, offset=offset)
         # Half a tile, and a pixel's rounding more.
         half = builder.uniform("pixel", F32) * (0.5 * TILE + 0.01)
-        patch = frame_patch(builder, lowered, kind, *tile_coordinates(builder, lane), half)
+        patch = frame_patch(builder, subject, *tile_coordinates(builder, lane), half)
         beam = trace_beam(patch, *t_range(builder), builder.uniform("finest", F32))
         store(builder.buffer("tile_start", F32, writable=True), lane, beam.empty.select(EMPTY_TILE, beam.start))
         store(builder.buffer("tile_step", F32, writable=True), lane, beam.step)

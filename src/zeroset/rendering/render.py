@@ -11,19 +11,19 @@ import numpy as np
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.rendering.bands import Assembled, bands, fits
 from zeroset.rendering.bounce import MOST_DEEP
+from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import Illumination, Lighting, Optics, Smooth, shading_uniforms
 from zeroset.rendering.tint import Palette, Tint
-from zeroset.rendering.values import parameter_uniforms
 from zeroset.runtime import Device, get_device
-from zeroset.scene.bounds import SMALLEST, Bounds, bounds_uniforms, number
+from zeroset.scene.bounds import SMALLEST, Bounds, number
 from zeroset.scene.camera import Camera, Rays, camera_uniforms, parse_camera
 from zeroset.scene.coloring import Coloring, as_coloring
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import Color, Light, Material
-from zeroset.scene.scene import Scene, as_scene
+from zeroset.scene.scene import Scene, Shown, as_scene
 from zeroset.scene.surface import Surface
 from zeroset.solve import Method, resolve_method
 
@@ -43,7 +43,7 @@ def default_tolerance(bounds: Bounds) -> float:
 
 
 def render(
-    surface: Surface | Scene | str,
+    surface: Shown,
     size: tuple[int, int] | int = (1024, 1024),
     camera: Camera | None = None,
     method: str | Method = "auto",
@@ -66,7 +66,7 @@ def render(
     """Draw a surface.
 
     Args:
-        surface: a Surface, a Scene, or a formula as text.
+        surface: a Surface, a Solid, a sequence of both, a Scene, or a formula as text.
         size: width and height in pixels; one number for a square.
         camera: None takes the scene's or the surface's own, or one that fits the bounds.
         method: ``"auto"`` or another name of ``zs.methods``, or an instance with options.
@@ -111,12 +111,11 @@ def render(
         environment=scene.environment if environment is None else as_environment(environment),
     )
     if color_by is not None:
-        scene = replace(scene, material=replace(scene.material, coloring=as_coloring(color_by)))
-    shown, lit = scene.surface, scene.lights
+        scene = _colored(scene, as_coloring(color_by))
+    shown, lit, materials = as_drawn(scene.surface), scene.lights, scene.materials
     layout = _layout(size)
     chosen = resolve_method(method)
-    chosen.check(shown.field)
-    shown.check_work()
+    shown.check(chosen)
     target = get_device(device)
     smooth = _smooth(antialias, samples)
     lighting = Lighting.of(scene, smooth)
@@ -124,34 +123,46 @@ def render(
     whole = fits(layout, target, lighting.optics)
     # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, lighting, layout, target, draft, tint) if whole else None
-    view = parse_camera(camera or scene.camera or shown.camera, shown.fitted)
+    view = parse_camera(camera or scene.camera or scene.surface.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
-    uniforms |= shading_uniforms(scene.material, lit, scene.background, rays)
+    uniforms |= shading_uniforms(materials[0], lit, scene.background, rays)
     coarse = shadow_length(shadow_tolerance, shown.fitted)
     light = None
     if scene.shadows or lighting.optics is not None:
         light = Illumination.of(scene, rays, coarse, _depth(depth, lighting), smooth)
-    coloring = scene.material.coloring
+    coloring = materials[0].coloring
     palette = None if coloring is None else Palette.of(coloring, rays)
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
-            outputs = frame.draw(shown, uniforms, thin, progress, draft, light, palette)
+            outputs = frame.draw(shown, uniforms, thin, progress, draft, light, materials, palette)
     else:
         if palette is not None and palette.range is None:
             # All bands have one range: that of the whole picture, drawn smaller.
             small = _smaller(layout, target, lighting.optics)
             seen = render(scene, (small.width, small.height), camera, method, target, tolerance, thin=thin)
             palette = replace(palette, range=seen.range)
-        outputs = Assembled(layout, palette)
+        outputs = Assembled(layout, shown.parts, palette)
         parts = tuple(bands(layout, target, lighting.optics))
         for i, band in enumerate(parts):
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
             part = frame_for(shown, chosen, lighting, band.layout, target, draft, tint)
             with part.lock:
-                outputs.add(band, part.draw(shown, own, thin, _share(progress, i, len(parts)), draft, light, palette))
+                share = _share(progress, i, len(parts))
+                outputs.add(band, part.draw(shown, own, thin, share, draft, light, materials, palette))
     return Image((layout.width, layout.height), outputs, chosen.certified, coloring)
+
+
+def _colored(scene: Scene, coloring: Coloring | None) -> Scene:
+    """A scene coloured by a quantity, whoever has the material."""
+    material = replace(scene.material, coloring=coloring)
+
+    def own(surface: Surface) -> Surface:
+        material = surface.material
+        return surface if material is None else surface.with_material(replace(material, coloring=coloring))
+
+    return replace(scene, surface=scene.surface.mapped(own), material=material)
 
 
 def _share(progress: Progress | None, part: int, parts: int) -> Progress | None:
@@ -222,16 +233,16 @@ def _smooth(antialias: int, samples: int) -> Smooth:
     return Smooth(samples, True) if samples > 1 else Smooth(antialias, False)
 
 
-def frame_uniforms(surface: Surface, method: Method, rays: Rays, layout: Layout, tolerance: float) -> dict[str, float]:
+def frame_uniforms(drawn: Drawn, method: Method, rays: Rays, layout: Layout, tolerance: float) -> dict[str, float]:
     """Everything that the beams and the primary rays need to know."""
-    bounds = surface.fitted
+    bounds = drawn.fitted
     depth = float(np.dot(np.subtract(bounds.center, rays.eye), rays.forward))
     slack = 1e-6 * (abs(depth) + bounds.reach)
     near, far = max(0.0, depth - bounds.reach - slack), max(0.0, depth + bounds.reach + slack)
     # Length of one pixel step, at the bounds' centre, in world units: a beam is about a tile of them wide.
     spread = np.linalg.norm(rays.right) * max(depth, near) + np.linalg.norm(rays.right_origin)
     finest = max(float(spread) * 2.0 / max(layout.width, layout.height) * TILE, tolerance, 1e-6 * far)
-    uniforms = camera_uniforms(rays) | bounds_uniforms(bounds) | layout.uniforms()
+    uniforms = camera_uniforms(rays) | drawn.limits() | layout.uniforms()
     uniforms["world_pixel"] = float(spread) * 2.0 / max(layout.width, layout.height)
     uniforms |= {"near": near, "far": far, "finest": finest, "tolerance": tolerance}
-    return uniforms | parameter_uniforms(surface, method)
+    return uniforms | drawn.parameters(method)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, if_, load, store
-from zeroset.rendering.buffers import COLORS, LIT, VALUE
+from zeroset.rendering.buffers import COLORS, LIT, PART, VALUE
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
+from zeroset.rendering.materials import material_at
 from zeroset.rendering.shading import LIGHT, Lighting
 from zeroset.rendering.view import pixel_ray
 from zeroset.shade.albedo import Albedo
@@ -15,8 +16,8 @@ from zeroset.solve.field import Ray
 from zeroset.solve.status import MISS
 
 
-def shade_kernel(lighting: Lighting) -> Kernel:
-    """Blinn-Phong over the background; the lighting shapes the kernel, everything else is uniforms."""
+def shade_kernel(lighting: Lighting, parts: int = 1) -> Kernel:
+    """Blinn-Phong over the background; the lighting and how many parts there are shape the kernel."""
     with KernelBuilder("shade") as builder:
         lane = builder.index()
         normal = [load(builder.buffer(name, F32), lane) for name in ("nx", "ny", "nz")]
@@ -26,8 +27,9 @@ def shade_kernel(lighting: Lighting) -> Kernel:
             ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
             toward_eye = [-d for d in normalised(ray.direction)]
             sources = _sources(builder, lighting, ray, lane)
+            part = load(builder.buffer(PART, U32), lane) if parts > 1 else None
             albedo = by_value(builder, load(builder.buffer(VALUE, F32), lane)) if lighting.colored else None
-            color = blinn_phong(lambda name: builder.uniform(name, F32), normal, toward_eye, sources, albedo)
+            color = blinn_phong(material_at(builder, part), normal, toward_eye, sources, albedo)
             return tuple(encode(c) for c in color)
 
         def behind() -> tuple[object, ...]:

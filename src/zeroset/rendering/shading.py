@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from zeroset.rendering.materials import material_numbers
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Rays
 from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene
 
 LIGHT = ("x", "y", "z", "r", "g", "b")
-NUMBERS = ("ambient", "diffuse", "specular", "shininess", "opacity", "reflectance", "ior")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,12 +63,19 @@ class Optics:
     @classmethod
     def of(cls, scene: Scene, smooth: Smooth) -> Optics | None:
         """What a scene asks for; None where the first hit is all."""
-        material = scene.material
-        through, mirror = material.opacity < 1, material.reflectance > 0
+        materials = scene.materials
+        through, mirror = any(m.opacity < 1 for m in materials), any(m.reflectance > 0 for m in materials)
         more = smooth.samples > 1
         if not (through or mirror or scene.environment or more):
             return None
-        return cls(through, through and material.ior != 1, mirror, scene.environment is not None, scene.shadows, more)
+        return cls(
+            through,
+            any(m.opacity < 1 and m.ior != 1 for m in materials),
+            mirror,
+            scene.environment is not None,
+            scene.shadows,
+            more,
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +99,7 @@ class Lighting:
     def of(cls, scene: Scene, smooth: Smooth) -> Lighting:
         """The lighting of a scene."""
         optics = Optics.of(scene, smooth)
-        colored = scene.material.coloring is not None
+        colored = any(material.coloring for material in scene.materials)
         if optics is not None and not optics.plain:
             # There the lights are data.
             return cls("", False, optics, colored)
@@ -144,12 +151,9 @@ def srgb(linear: float) -> float:
 
 def shading_uniforms(material: Material, lights: Sequence[Light], background: Color, rays: Rays) -> dict[str, float]:
     """Numbers of the shading pass by uniform name; headlights are turned into world directions here."""
-    named = {
-        f"{side}_{c}": v for side in ("front", "back") for c, v in zip("rgb", getattr(material, side), strict=True)
-    }
+    named = material_numbers(material)
     named |= {f"background_{c}": srgb(v) for c, v in zip("rgb", background, strict=True)}
     named |= {f"sky_{c}": v for c, v in zip("rgb", background, strict=True)}
-    named |= {name: getattr(material, name) for name in NUMBERS}
     for i, light in enumerate(lights):
         named |= {f"light{i}_{k}": v for k, v in zip(LIGHT, (*_world(light, rays), *light.color), strict=True)}
     return named

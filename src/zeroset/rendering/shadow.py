@@ -15,10 +15,12 @@ from zeroset.rendering.layout import pixel_coordinates
 from zeroset.rendering.view import pixel_ray
 from zeroset.scene.clip import clip
 from zeroset.shade.reflectance import dot
-from zeroset.solve.field import Field, Lowered, Ray
+from zeroset.solve.field import Ray
 from zeroset.solve.problem import Problem
 from zeroset.solve.search import search
+from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS
+from zeroset.solve.subject import Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
@@ -26,7 +28,7 @@ CLEAR = 2.0
 """Tolerances before the point at which the search ends."""
 
 
-def shadow_kernel(field: Field, offset: bool, kind: str) -> Kernel:
+def shadow_kernel(shape: Shape, offset: bool) -> Kernel:
     """One light; sets the light's ``bit`` of each point that it reaches.
 
     Uniforms beside the frame's own: ``light_x``, ``light_y``, ``light_z``, ``light_w``: the light's place with w = 1,
@@ -34,7 +36,7 @@ def shadow_kernel(field: Field, offset: bool, kind: str) -> Kernel:
     """
     with KernelBuilder("shadow") as builder:
         lane = builder.index()
-        lowered = Lowered(field, builder, offset=offset)
+        subject = Subject(shape, builder, offset=offset)
         ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
         t = load(builder.buffer("t", F32), lane)
         point = [t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
@@ -46,35 +48,34 @@ def shadow_kernel(field: Field, offset: bool, kind: str) -> Kernel:
         turned = dot(normal, toward) * dot(normal, ray.direction) > 0.0
         wanted = load(builder.buffer("status", U32), lane).ne(MISS) & ~turned
 
-        free = wanted & way_is_free(builder, lowered, kind, point, toward, wanted)
+        free = wanted & way_is_free(subject, point, toward, wanted)
         lit = builder.buffer(LIT, U32, writable=True)
         reached = free.select(builder.uniform("bit", U32), constant(0, U32))
         store(lit, lane, load(lit, lane) | reached)
     return builder.kernel
 
 
-def way_is_free(
-    builder: KernelBuilder,
-    lowered: Lowered,
-    kind: str,
-    point: Sequence[Value],
-    toward: Sequence[Value],
-    wanted: Value,
-) -> Value:
+def way_is_free(subject: Subject, point: Sequence[Value], toward: Sequence[Value], wanted: Value) -> Value:
     """Whether it is proven that nothing lies between a light and a point.
 
     Args:
-        builder: of the kernel, for the bounds and the uniform ``shadow_tolerance``.
-        lowered: f.
-        kind: of bounds.
+        subject: all that throws shadows; its kernel has the uniform ``shadow_tolerance``.
         point: on the surface.
         toward: from there to the light.
         wanted: lanes that ask; the others search nothing.
     """
     length = dot(toward, toward).maximum(1e-30).sqrt()
-    tolerance = builder.uniform("shadow_tolerance", F32) / length
+    tolerance = subject.builder.uniform("shadow_tolerance", F32) / length
     way = Ray(tuple(x + v for x, v in zip(point, toward, strict=True)), tuple(-v for v in toward))
-    start, end = clip(builder, kind, way.origin, way.direction)
-    start, end = start.maximum(0.0), end.minimum(1.0 - tolerance * CLEAR)
-    problem = Problem(lowered, way, start, end, tolerance, (end - start) * 0.125)
-    return search(problem, automatic_system(lowered.field, problem.fmt), Striding(), wanted).status.eq(MISS)
+    free: Value | None = None
+    for body in subject.bodies:
+        start, end = clip(subject.builder, body.body.kind, way.origin, way.direction, body.body.prefix)
+        start, end = start.maximum(0.0), end.minimum(1.0 - tolerance * CLEAR)
+        own = None if body.body.plain else body
+        problem = Problem(body.first, way, start, end, tolerance, (end - start) * 0.125, own)
+        # What one body hides no other one needs to be searched for.
+        asked = wanted if free is None else wanted & free
+        clear = search(problem, automatic_system(problem.field, problem.fmt), Striding(), asked).status.eq(MISS)
+        free = clear if free is None else free & clear
+    assert free is not None
+    return free

@@ -17,9 +17,10 @@ from zeroset.rendering.layout import TILE, pixel_coordinates, tile_of
 from zeroset.rendering.primary import EMPTY_TILE, camera_ray, t_range
 from zeroset.rendering.view import frame_patch
 from zeroset.solve.beam import Thin, find_thin
-from zeroset.solve.field import Field, Lowered
 from zeroset.solve.problem import Answer
+from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS, UNRESOLVED
+from zeroset.solve.subject import Subject
 
 BLOCKS, PIXELS, PARTS = 0, 1, 2
 """Values of the uniform ``level``."""
@@ -43,7 +44,7 @@ class _Level:
         return self.pick((a, b, c))
 
 
-def thin_kernel(field: Field, offset: bool, kind: str, ends: bool = False) -> Kernel:
+def thin_kernel(shape: Shape, offset: bool, ends: bool = False) -> Kernel:
     """One run; the uniform ``level`` says on what."""
     with KernelBuilder("thin") as builder:
         index = builder.index()
@@ -55,13 +56,13 @@ def thin_kernel(field: Field, offset: bool, kind: str, ends: bool = False) -> Ke
         listed_pixel = load(buffers["thin_pixel"], at.level.eq(PARTS).select(place, constant(0, U32)))
         lane = at.pick((index << 4, (listed_block << 4) + part, listed_pixel))
 
-        lowered = Lowered(field, builder, offset=offset)
+        subject = Subject(shape, builder, offset=offset)
         pixel, width = builder.uniform("pixel", F32), at.number(WIDTHS)
         u, v = pixel_coordinates(builder, lane)
         # From the middle of a lane's (first) pixel to the middle of its block, or of its part of the pixel.
         across = at.pick((constant(1.5, F32), constant(0.0, F32), (part & 3).convert(F32).fma(0.25, -0.375)))
         down = at.pick((constant(1.5, F32), constant(0.0, F32), (part >> 2).convert(F32).fma(0.25, -0.375)))
-        patch = frame_patch(builder, lowered, kind, across.fma(pixel, u), (-down).fma(pixel, v), pixel * width * 0.5)
+        patch = frame_patch(builder, subject, across.fma(pixel, u), (-down).fma(pixel, v), pixel * width * 0.5)
 
         tile = tile_of(lane)
         start, step = (load(builder.buffer(name, F32), tile) for name in ("tile_start", "tile_step"))
@@ -73,11 +74,11 @@ def thin_kernel(field: Field, offset: bool, kind: str, ends: bool = False) -> Ke
         marked = load(buffers["block_missed"], lane >> 4).ne(0)
         wanted = at.pick((marked, marked & missed, marked))
         thin = find_thin(patch, wanted.select(start, EMPTY_TILE), t_range(builder)[1], step, finest)
-        _record(builder, at, lowered, lane, thin, ends)
+        _record(builder, at, subject, lane, thin, ends)
     return builder.kernel
 
 
-def _record(builder: KernelBuilder, at: _Level, lowered: Lowered, lane: Value, thin: Thin, ends: bool) -> None:
+def _record(builder: KernelBuilder, at: _Level, subject: Subject, lane: Value, thin: Thin, ends: bool) -> None:
     """Put what may hold something thin on the next list, or draw it."""
     counters = builder.buffer(COUNTERS, U32, writable=True)
     t = builder.buffer("t", FIELDS["t"], writable=True)
@@ -93,8 +94,10 @@ def _record(builder: KernelBuilder, at: _Level, lowered: Lowered, lane: Value, t
     def draw() -> None:
         # Several parts of a pixel may come here: they all write the same, which is the pixel's.
         where = load(t, lane)
-        answer = Answer(where, constant(UNRESOLVED, U32), constant(1, U32), where, constant(0.0, F32), where)
-        write(builder, lowered, lane, camera_ray(builder, lane), answer, ends)
+        # Of which part it is nobody has told: the nearest one's.
+        mark = None if subject.shape.plain else constant(0xFFFFFFFF, U32)
+        answer = Answer(where, constant(UNRESOLVED, U32), constant(1, U32), where, constant(0.0, F32), where, mark)
+        write(builder, subject, lane, camera_ray(builder, lane), answer, ends)
 
     def found() -> None:
         if_(at.level.eq(BLOCKS), block)

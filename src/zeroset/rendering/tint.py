@@ -14,9 +14,10 @@ from zeroset.runtime import Device
 from zeroset.scene.camera import Rays
 from zeroset.scene.coloring import QUANTITIES, Coloring, formula_of
 from zeroset.scene.colormap import NEUTRAL, table
+from zeroset.scene.exprfield import ExprField
 from zeroset.scene.parameters import TIME
 from zeroset.scene.scene import Scene
-from zeroset.scene.surface import ExprField, Surface
+from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 from zeroset.solve.names import OFFSET
 
@@ -50,10 +51,11 @@ class Tint:
     @classmethod
     def of(cls, scene: Scene, device: Device) -> Tint | None:
         """The tint of a scene; None where nothing is coloured by a quantity."""
-        coloring = scene.material.coloring
-        if coloring is None:
+        if not any(material.coloring for material in scene.materials):
             return None
-        formula = formula_of(coloring, scene.surface)
+        surface, coloring = scene.plain("colouring by a quantity"), scene.materials[0].coloring
+        assert coloring is not None
+        formula = formula_of(coloring, surface)
         exact = formula is not None or QUANTITIES[coloring.by].order > 0
         return cls("formula" if formula else coloring.by, formula, F64 if exact and device.supports(F64) else F32)
 

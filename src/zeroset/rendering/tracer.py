@@ -12,14 +12,15 @@ import numpy as np
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.rendering.buffers import BLOCK, COUNTERS, END, FIELDS, FROM, LIT, NOTHING, ONWARD, SECOND, THIN
+from zeroset.rendering.buffers import BLOCK, COUNTERS, END, FROM, LIT, NOTHING, ONWARD, SECOND, THIN, fields
+from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.layout import TILE
 from zeroset.rendering.making import Making
-from zeroset.rendering.values import Arrays, parameter_uniforms
+from zeroset.rendering.values import Arrays
 from zeroset.runtime import Counted, Device, Program
-from zeroset.scene.bounds import bounds_kind
-from zeroset.scene.surface import Surface
+from zeroset.scene.several import Drawable
 from zeroset.solve.method import Method
+from zeroset.solve.shape import Shape
 
 Buffers = Mapping[str, Any]
 DRAFT = ("beams", "first", "shadow")
@@ -33,14 +34,14 @@ AT_ONCE = 5
 
 
 class Tracer:
-    """The programs of one structure (formula, method, kind of bounds).
+    """The programs of one structure (formulas, method, kinds of bounds).
 
     Attributes:
         certified: whether the method proves its answers; only then are there beams, second looks and thin parts.
         beams: whether tiles of pixels share beams.
 
     Args:
-        surface: what is traced.
+        surface: what is traced: a surface, a solid, or several.
         method: how.
         device: where.
         pixels: whether the rays are a camera's, one a pixel, or a caller's.
@@ -51,7 +52,7 @@ class Tracer:
 
     def __init__(
         self,
-        surface: Surface,
+        surface: Drawable | Drawn,
         method: Method,
         device: Device,
         pixels: bool,
@@ -68,17 +69,17 @@ class Tracer:
         self.beams = pixels and method.certified and not layered
         self._second = method.certified and device.supports(F64)
         self._arrays = Arrays(device)
-        self._key = (
-            f"{surface.field.digest} {method.structure()} {bounds_kind(surface.bounds)} {pixels} {layered} {ends}"
-        )
+        shape = as_drawn(surface).shape
+        self._parts = shape.parts
+        self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {ends}"
         self._shared: list[str] = []
         self._making = Making(device)
         self._drawn = False
-        for name, build in self._kernels(surface, pixels).items():
+        for name, build in self._kernels(shape, pixels).items():
             self._making.add(name, f"{name} {self._key}", build)
 
-    def _kernels(self, surface: Surface, pixels: bool) -> dict[str, Callable[[], Kernel]]:
-        field, kind, method = surface.field, bounds_kind(surface.bounds), self._method
+    def _kernels(self, shape: Shape, pixels: bool) -> dict[str, Callable[[], Kernel]]:
+        method = self._method
         offset, ends = method.offset != 0.0, self._ends
 
         # Imported where they are traced: a picture whose kernels come from the cache loads no number system at all.
@@ -86,34 +87,34 @@ class Tracer:
             if self._layered:
                 from zeroset.rendering.layers import layer_kernel
 
-                return layer_kernel(field, method, kind, pixels, self._second)
+                return layer_kernel(shape, method, pixels, self._second)
             from zeroset.rendering.primary import trace_kernel
 
-            return trace_kernel(field, method, kind, pixels, self.beams, self._second, ends)
+            return trace_kernel(shape, method, pixels, self.beams, self._second, ends)
 
         def second() -> Kernel:
             if self._layered:
                 from zeroset.rendering.layers import second_layer_kernel
 
-                return second_layer_kernel(field, offset, kind, pixels)
+                return second_layer_kernel(shape, offset, pixels)
             from zeroset.rendering.primary import second_kernel
 
-            return second_kernel(field, offset, kind, pixels, ends)
+            return second_kernel(shape, offset, pixels, ends)
 
         def beams() -> Kernel:
             from zeroset.rendering.primary import beam_kernel
 
-            return beam_kernel(field, offset, kind)
+            return beam_kernel(shape, offset)
 
         def thin() -> Kernel:
             from zeroset.rendering.thin import thin_kernel
 
-            return thin_kernel(field, offset, kind, ends)
+            return thin_kernel(shape, offset, ends)
 
         def shadow() -> Kernel:
             from zeroset.rendering.shadow import shadow_kernel
 
-            return shadow_kernel(field, offset, kind)
+            return shadow_kernel(shape, offset)
 
         made: dict[str, Callable[[], Kernel]] = {"first": first}
         if self._shadows:
@@ -161,11 +162,11 @@ class Tracer:
 
     def outputs(self, rays: int) -> dict[str, Any]:
         """Fresh buffers for what is found along so many rays."""
-        return {name: self._device.allocate(type_, rays) for name, type_ in FIELDS.items()}
+        return {name: self._device.allocate(type_, rays) for name, type_ in fields(self._parts).items()}
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles, those of the outputs included where there is one layer."""
-        wanted = ({} if self._layered else FIELDS) | (SECOND if self._second else {})
+        wanted = ({} if self._layered else fields(self._parts)) | (SECOND if self._second else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, 3)
         if self._ends:
@@ -180,10 +181,10 @@ class Tracer:
             }
         return made
 
-    def begin(self, surface: Surface, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
+    def begin(self, drawn: Drawn, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
         """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters."""
         self._drawn = True
-        bound = {**buffers, **self._arrays.bind(surface)} if surface.arrays else buffers
+        bound = {**buffers, **drawn.bind(self._arrays)} if drawn.arrays else buffers
         self._device.clear(buffers[COUNTERS])
         if self.beams:
             self._device.clear(buffers["block_missed"])
@@ -198,7 +199,7 @@ class Tracer:
         self.program("first").run(count, {**uniforms, "first": first}, bound)
 
     def layers(
-        self, surface: Surface, uniforms: Mapping[str, float], bound: Buffers, rays: int, most: int
+        self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers, rays: int, most: int
     ) -> list[dict[str, Any]]:
         """What lies behind one another along each ray: the outputs of each layer, the first one first."""
         here, onward = (self._device.allocate(F32, rays) for _ in range(2))
@@ -209,16 +210,16 @@ class Tracer:
             self._device.clear(bound[COUNTERS])
             layer = {**bound, **found[-1], FROM: here, ONWARD: onward}
             self.program("first").run(rays, uniforms, layer)
-            self.second_look(surface, uniforms, layer)
+            self.second_look(drawn, uniforms, layer)
             here, onward = onward, here
         return found
 
-    def second_look(self, surface: Surface, uniforms: Mapping[str, float], bound: Buffers) -> None:
+    def second_look(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers) -> None:
         """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so."""
         if not self._second or self._device.lanes(Counted(bound[COUNTERS], 0)) == 0:
             return
-        exact = {**uniforms, **parameter_uniforms(surface, self._method, F64)}
-        arrays = self._arrays.bind(surface, F64) if surface.arrays else {}
+        exact = {**uniforms, **drawn.parameters(self._method, F64)}
+        arrays = drawn.bind(self._arrays, F64) if drawn.arrays else {}
         self.program("second").run(Counted(bound[COUNTERS], 0), exact, {**bound, **arrays})
 
     def shadows(self, lights: Iterable[Mapping[str, float]], uniforms: Mapping[str, float], bound: Buffers) -> None:

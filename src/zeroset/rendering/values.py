@@ -16,7 +16,7 @@ from zeroset.kernel.types import F32, Type
 from zeroset.runtime import Device
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
-from zeroset.solve.names import OFFSET, array_names, length_name, parameter_names
+from zeroset.solve.names import OFFSET, array_names, isovalue_name, length_name, parameter_names
 
 Floats = npt.NDArray[Any]
 
@@ -32,19 +32,23 @@ def stored(exact: npt.NDArray[np.float64], type_: Type) -> tuple[Floats, Floats]
     return near, np.where(lost, np.maximum(error, smallest), type_.dtype.type(0))
 
 
-def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32) -> dict[str, float]:
-    """The parameters' values, the arrays' lengths and the method's options by uniform name."""
+def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32, prefix: str = "") -> dict[str, float]:
+    """The parameters' values, the arrays' lengths and the method's options by uniform name.
+
+    ``prefix`` is before the names of the surface's own numbers, where a kernel has several surfaces.
+    """
     values = {name: surface.params[name] for name in surface.field.parameters} | {OFFSET: method.offset}
-    named = method.uniforms() | scalar_uniforms(values, type_)
-    return named | {length_name(name): len(surface.arrays[name]) for name in surface.field.arrays}
+    values |= {isovalue_name(i): value for i, value in enumerate(surface.isovalues)}
+    named = method.uniforms() | scalar_uniforms(values, type_, prefix)
+    return named | {length_name(prefix + name): len(surface.arrays[name]) for name in surface.field.arrays}
 
 
-def scalar_uniforms(values: Mapping[str, float], type_: Type = F32) -> dict[str, float]:
+def scalar_uniforms(values: Mapping[str, float], type_: Type = F32, prefix: str = "") -> dict[str, float]:
     """Values of scalar parameters, and what storing them leaves out, by uniform name."""
     near, error = stored(np.array(list(values.values()), np.float64), type_)
     named = {}
     for i, name in enumerate(values):
-        value_name, error_name = parameter_names(name, type_)
+        value_name, error_name = parameter_names(prefix + name, type_)
         named[value_name], named[error_name] = float(near[i]), float(error[i])
     return named
 
@@ -60,11 +64,11 @@ class Arrays:
         self._buffers: dict[str, Any] = {}
         self._written: dict[str, Floats] = {}
 
-    def bind(self, surface: Surface, type_: Type = F32) -> dict[str, Any]:
+    def bind(self, surface: Surface, type_: Type = F32, prefix: str = "") -> dict[str, Any]:
         """The buffers by name, with the surface's values in them."""
         bound: dict[str, Any] = {}
         for name in surface.field.arrays:
-            for key, values in zip(array_names(name, type_), stored(surface.arrays[name], type_), strict=True):
+            for key, values in zip(array_names(prefix + name, type_), stored(surface.arrays[name], type_), strict=True):
                 bound[key] = self._buffer(key, values, type_)
         return bound
 

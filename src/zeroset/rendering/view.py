@@ -10,7 +10,9 @@ from zeroset.kernel import F32, KernelBuilder, Value
 from zeroset.scene.camera import VECTORS
 from zeroset.scene.clip import outside
 from zeroset.solve.beam import Patch
-from zeroset.solve.field import Lowered, Ray
+from zeroset.solve.field import Ray
+from zeroset.solve.shape import Body
+from zeroset.solve.subject import Subject
 from zeroset.solve.systems import automatic_system
 
 
@@ -41,12 +43,12 @@ def beam_rays(builder: KernelBuilder, system: Any, u: Any, v: Any) -> tuple[list
     return affine(eye, across, upwards), affine(forward, right, up)
 
 
-def frame_patch(builder: KernelBuilder, lowered: Lowered, kind: str, u: Value, v: Value, half: Value) -> Patch:
+def frame_patch(builder: KernelBuilder, subject: Subject, u: Value, v: Value, half: Value) -> Patch:
     """The rays through the frame's patch of half the side ``half`` around (u, v)."""
-    system = automatic_system(lowered.field, FORMAT, symbols=3)
+    system = automatic_system(subject.shape, FORMAT, symbols=3)
     origin, direction = beam_rays(builder, system, system.symbol(0, u, half), system.symbol(1, v, half))
 
-    def beyond(point: Sequence[Any]) -> Value:
-        return outside(builder, kind, system, point)
+    def beyond(body: Body, point: Sequence[Any]) -> Value:
+        return outside(builder, body.kind, system, point, body.prefix)
 
-    return Patch(lowered, system, origin, direction, beyond)
+    return Patch(subject, system, origin, direction, beyond)

@@ -147,7 +147,7 @@ def bounds_kind(bounds: Bounds | None) -> str:
     return "box" if isinstance(bounds, Box) else "ball"
 
 
-def bounds_uniforms(bounds: Bounds) -> dict[str, float]:
+def bounds_uniforms(bounds: Bounds, prefix: str = "") -> dict[str, float]:
     """The bounds' numbers by uniform name: centre and radius of a ball, the corners of a box."""
     values = (*bounds.center, bounds.radius, 0.0, 0.0) if isinstance(bounds, Ball) else (*bounds.min, *bounds.max)
-    return dict(zip(NAMES, values, strict=True))
+    return {prefix + name: value for name, value in zip(NAMES, values, strict=True)}

@@ -18,15 +18,20 @@ ROUNDING = 2.0**-21
 """Covers the roundings of a stretch in f32, none of which is more than a few times 2^-24 of what goes in."""
 
 
-def _uniforms(builder: KernelBuilder) -> list[Value]:
-    return [builder.uniform(name, F32) for name in NAMES]
+def _uniforms(builder: KernelBuilder, prefix: str) -> list[Value]:
+    return [builder.uniform(prefix + name, F32) for name in NAMES]
 
 
-def clip(builder: KernelBuilder, kind: str, origin: Sequence[Value], direction: Sequence[Value]) -> tuple[Value, Value]:
-    """The stretch [t0, t1] of the whole line inside the bounds; t1 <= t0 where it misses them."""
+def clip(
+    builder: KernelBuilder, kind: str, origin: Sequence[Value], direction: Sequence[Value], prefix: str = ""
+) -> tuple[Value, Value]:
+    """The stretch [t0, t1] of the whole line inside the bounds; t1 <= t0 where it misses them.
+
+    ``prefix`` is before the names of the bounds' numbers, where a kernel has several.
+    """
     if kind == "ball":
-        return _clip_ball(_uniforms(builder), origin, direction)
-    return _clip_box(_uniforms(builder), origin, direction)
+        return _clip_ball(_uniforms(builder, prefix), origin, direction)
+    return _clip_box(_uniforms(builder, prefix), origin, direction)
 
 
 def _dot(a: Sequence[Value], b: Sequence[Value]) -> Value:
@@ -64,9 +69,9 @@ def _clip_box(bounds: list[Value], origin: Sequence[Value], direction: Sequence[
     return low - abs(low) * ROUNDING, high + abs(high) * ROUNDING
 
 
-def outside(builder: KernelBuilder, kind: str, system: Any, point: Sequence[Any]) -> Value:
+def outside(builder: KernelBuilder, kind: str, system: Any, point: Sequence[Any], prefix: str = "") -> Value:
     """Whether a region, given as numbers of an enclosing system, certainly lies outside the bounds."""
-    bounds = [system.exact(v) for v in _uniforms(builder)]
+    bounds = [system.exact(v) for v in _uniforms(builder, prefix)]
     if kind == "ball":
         squares = [(p - c).sqr() for p, c in zip(point, bounds[:3], strict=True)]
         distance = squares[0] + squares[1] + squares[2] - bounds[3].sqr()

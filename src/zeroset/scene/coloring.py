@@ -9,14 +9,17 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, UnknownNameError, ZerosetError, did_you_mean
 from zeroset.expr import parse
 from zeroset.scene.bounds import number
 from zeroset.scene.colormap import find_map
+from zeroset.scene.exprfield import MOST_WORK, ExprField
 from zeroset.scene.parameters import TIME
-from zeroset.scene.surface import MOST_WORK, ExprField, Surface
+
+if TYPE_CHECKING:
+    from zeroset.scene.surface import Surface
 
 Range = tuple[float, float]
 

@@ -1,6 +1,6 @@
 """Scene files: a whole picture as TOML, read with errors that name the line, and written back the same.
 
-Every key is optional but ``formula``:
+Every key is optional but ``formula``, in whose place there may be surfaces and solids (``file_shapes``):
 
     formula = "x^4 - a*x^2 + y^4 - 5y^2 + z^4 - 5z^2 + 11.8"
     name = "tangle"
@@ -9,6 +9,8 @@ Every key is optional but ``formula``:
     shadows = true
     environment = "sky"                             # or "room", or pictures, named from this file's folder
     params = {a = 5.0}
+    isovalues = [0.0, 2.0]                          # instead of f = 0
+    colors = [[0.9, 0.3, 0.1], [0.1, 0.3, 0.8]]
     camera = {eye = [4, -7, 4], target = [0, 0, 0], up = [0, 0, 1], fov = 35}
     material = {front = [0.9, 0.5, 0.1], shininess = 40}
     material.coloring = {by = "gaussian-curvature", map = "coolwarm", range = [-2, 2]}   # or the quantity alone
@@ -25,20 +27,20 @@ from pathlib import Path
 from typing import Any
 
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
-from zeroset.scene.blame import blamed, blamed_bounds, blamed_params, in_toml
-from zeroset.scene.bounds import Ball, Bounds, parse_bounds
+from zeroset.scene.blame import blamed, in_toml
 from zeroset.scene.camera import Camera
 from zeroset.scene.coloring import Coloring, formula_of
 from zeroset.scene.environment import Environment, as_environment
+from zeroset.scene.file_shapes import TOP, given, material_data, read_shapes, shapes_data
 from zeroset.scene.kinds import shown, wrong_kind
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
 from zeroset.scene.lines import Lines, read_toml
 from zeroset.scene.lines import Path as KeyPath
 from zeroset.scene.places import for_folder, from_folder
-from zeroset.scene.scene import MOST_LIGHTS, Scene, as_scene
-from zeroset.scene.surface import Surface, surface
+from zeroset.scene.scene import MOST_LIGHTS, Scene, Shown, as_scene
+from zeroset.scene.several import Drawable, plain_surface
 
-KEYS = ("formula", "name", "bounds", "background", "params", "camera", "material", "lights", "shadows", "environment")
+KEYS = (*TOP, "background", "camera", "material", "lights", "shadows", "environment")
 LARGEST = 4_000_000
 """Bytes of a scene file."""
 
@@ -103,6 +105,10 @@ class _Reader:
         self._text = text
         self._path = path
 
+    def placing(self, place: Callable[[ZerosetError], KeyPath]) -> _placing:
+        """Errors inside get the line of a place."""
+        return _placing(self, place)
+
     def fail(self, message: str, place: str | KeyPath, hints: tuple[str, ...] = ()) -> SceneFileError:
         path: KeyPath = (place,) if isinstance(place, str) else place
         return SceneFileError(message, path=self._path, line=Lines(self._text).of(path), hints=hints)
@@ -125,18 +131,10 @@ class _Reader:
 
     def scene(self, data: dict[str, Any]) -> Scene:
         self.known(data, KEYS, "a scene")
-        if not isinstance(data.get("formula"), str):
-            raise self.fail("a scene needs a formula as text", "formula", ('formula = "x^2 + y^2 + z^2 = 1"',))
         lights = data.get("lights")
         if lights is not None and not isinstance(lights, list):
             raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
-        params = self._table(data, "params")
-        name = self.kinds(data.get("name", ""), ("name",))
-        with _placing(self, lambda error: blamed_params(params, error)):
-            shape = surface(data["formula"], params, name=name)
-        limits = self.kinds(data["bounds"], ("bounds",)) if "bounds" in data else None
-        with _placing(self, lambda error: ("bounds", *blamed_bounds(limits))):
-            shape = dataclasses.replace(shape, bounds=parse_bounds(limits))
+        shape = read_shapes(self, data)
         camera = None if "camera" not in data else self.build(Camera, data["camera"], "the camera", ("camera",))
         material = self._material(data.get("material", {}), shape)
         around = self._environment(data.get("environment"))
@@ -157,27 +155,31 @@ class _Reader:
                 around,
             )
 
-    def _material(self, data: Any, shape: Surface) -> Material:
-        written = data.get("coloring") if isinstance(data, Mapping) else None
-        if isinstance(written, Mapping):
-            coloring = self.build(Coloring, written, "the coloring", ("material", "coloring"))
-            rest = {key: value for key, value in data.items() if key != "coloring"}
-            material = dataclasses.replace(self._material(rest, shape), coloring=coloring)
-        else:
-            material = self.build(Material, data, "the material", ("material",))
+    def _material(self, data: Any, shape: Drawable) -> Material:
+        material = self.material(data, ("material",))
         if material.coloring is not None:
             known: Coloring = material.coloring
-            with _placing(
-                self, lambda error: ("material", "coloring", *(("by",) if isinstance(written, Mapping) else ()))
-            ):
-                formula_of(known, shape)
+            inside = ("by",) if isinstance(data["coloring"], Mapping) else ()
+            with _placing(self, lambda error: ("material", "coloring", *inside)):
+                formula_of(known, plain_surface(shape, "colouring by a quantity"))
         return material
 
-    def _table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    def material(self, data: Any, path: KeyPath) -> Material:
+        """A material from a table."""
+        written = data.get("coloring") if isinstance(data, Mapping) else None
+        if not isinstance(written, Mapping):
+            plain: Material = self.build(Material, data, "the material", path)
+            return plain
+        coloring = self.build(Coloring, written, "the coloring", (*path, "coloring"))
+        rest = {key: value for key, value in data.items() if key != "coloring"}
+        return dataclasses.replace(self.material(rest, path), coloring=coloring)
+
+    def table(self, data: Mapping[str, Any], key: str, path: KeyPath) -> Mapping[str, Any]:
+        """A table of names and values in a table; an empty one where there is none."""
         value = data.get(key, {})
         if not isinstance(value, Mapping):
-            raise self.fail(f"{key} must be a table of names and values", key)
-        kept: Mapping[str, Any] = self.kinds(value, (key,))
+            raise self.fail(f"{key} must be a table of names and values", (*path, key))
+        kept: Mapping[str, Any] = self.kinds(value, (*path, key))
         return kept
 
     def _environment(self, data: Any) -> Environment | None:
@@ -228,48 +230,34 @@ class _placing:  # noqa: N801 - reads as a statement
             raise self._reader.fail(said, self._place(error), tuple(map(in_toml, error.hints))) from None
 
 
-def dumps(scene: Scene | Surface) -> str:
+def dumps(scene: Shown) -> str:
     """The text of a scene file; ``loads`` gives the same scene back."""
     import tomli_w
 
     scene = as_scene(scene)
     shape = scene.surface
-    data: dict[str, Any] = {"formula": shape.formula}
-    if shape.name:
-        data["name"] = shape.name
-    if shape.bounds is not None:
-        data["bounds"] = _bounds_data(shape.bounds)
+    data: dict[str, Any] = shapes_data(shape)
+    params, tables = data.pop("params", None), data.pop("surfaces", None)
     data["background"] = [float(v) for v in scene.background]
-    params: dict[str, Any] = dict(shape.params) | {k: [float(v) for v in a] for k, a in shape.arrays.items()}
     if params:
         data["params"] = params
     camera = scene.camera or shape.camera
     if camera is not None:
-        data["camera"] = _given(dataclasses.asdict(camera))
-    data["material"] = _given(dataclasses.asdict(scene.material))
-    if scene.material.coloring is not None:
-        data["material"]["coloring"] = _given(dataclasses.asdict(scene.material.coloring))
+        data["camera"] = given(dataclasses.asdict(camera))
+    data["material"] = material_data(scene.material)
     if scene.shadows:
         data["shadows"] = True
     if scene.environment is not None:
         around = scene.environment
         data["environment"] = around.source if around.strength == 1.0 else dataclasses.asdict(around)
-    data["lights"] = [_given(dataclasses.asdict(light)) for light in scene.lights]
+    data["lights"] = [given(dataclasses.asdict(light)) for light in scene.lights]
+    if tables:
+        # After all plain values, since tables end the top of a file.
+        data["surfaces"] = tables
     return tomli_w.dumps(data)
 
 
-def _given(data: dict[str, Any]) -> dict[str, Any]:
-    """What of it is not None, which TOML does not know."""
-    return {k: v for k, v in data.items() if v is not None}
-
-
-def _bounds_data(bounds: Bounds) -> Any:
-    if isinstance(bounds, Ball):
-        return bounds.radius if not any(bounds.center) else dataclasses.asdict(bounds)
-    return dataclasses.asdict(bounds)
-
-
-def save(scene: Scene | Surface, path: str | os.PathLike[str]) -> Path:
+def save(scene: Shown, path: str | os.PathLike[str]) -> Path:
     """Write a scene file, whole or not at all; gives its path.
 
     Pictures of the surroundings stay where they are; the file names them from its own folder.

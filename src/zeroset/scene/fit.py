@@ -8,16 +8,15 @@ and gets a ball of a handy size instead.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from zeroset.arith import F64, Interval, IntervalSystem
 from zeroset.scene.bounds import Ball
-
-if TYPE_CHECKING:
-    from zeroset.scene.surface import Surface
+from zeroset.scene.solid import Solid
+from zeroset.scene.surface import Surface
 
 SEARCHED = 64.0
 """Half the side of the cube that is searched."""
@@ -32,13 +31,14 @@ LEVELS = 12
 Corners = npt.NDArray[np.float64]
 
 
-def fit_bounds(surface: Surface) -> Ball:
-    """The smallest ball found around the surface; the unit ball where space holds no zero at all."""
+def fit_bounds(thing: Surface | Solid) -> Ball:
+    """The smallest ball found around a surface or a solid's skin; the unit ball where space holds no zero at all."""
+    surfaces = thing.surfaces
     low, high = np.full((1, 3), -SEARCHED), np.full((1, 3), SEARCHED)
-    most = min(BOXES, max(64, EVALUATIONS // surface.field.work))
+    most = min(BOXES, max(64, EVALUATIONS // sum(surface.field.work for surface in surfaces)))
     for _ in range(LEVELS):
         inner_low, inner_high = _split(low, high)
-        kept = _may_hold_zero(surface, inner_low, inner_high)
+        kept = _may_hold_zero(thing, inner_low, inner_high)
         low, high = inner_low[kept], inner_high[kept]
         if not len(low) or len(low) > most:
             break
@@ -67,12 +67,35 @@ def _split(low: Corners, high: Corners) -> tuple[Corners, Corners]:
     return np.concatenate(lows), np.concatenate(highs)
 
 
-def _may_hold_zero(surface: Surface, low: Corners, high: Corners) -> npt.NDArray[np.bool_]:
+def _may_hold_zero(thing: Surface | Solid, low: Corners, high: Corners) -> npt.NDArray[np.bool_]:
+    if isinstance(thing, Solid):
+        return np.equal(_sign(thing, low, high), 0)
     system = IntervalSystem(F64)
-    env = _Boxes(surface, system, low, high)
+    f = _over(thing, system, low, high)
     with np.errstate(all="ignore"):
-        f = surface.field.evaluate(system, env)
-        return np.broadcast_to(np.asarray(f.contains_zero()), (len(low),))
+        values = [f - system.constant(v, v) for v in thing.isovalues] or [f]
+        found = np.zeros(len(low), bool)
+        for value in values:
+            found |= np.asarray(value.contains_zero())
+    return found
+
+
+def _over(surface: Surface, system: IntervalSystem, low: Corners, high: Corners) -> Interval:
+    with np.errstate(all="ignore"):
+        f: Interval = surface.field.evaluate(system, _Boxes(surface, system, low, high))
+    return f
+
+
+def _sign(thing: Surface | Solid, low: Corners, high: Corners) -> npt.NDArray[np.int8]:
+    """+1 outside, -1 inside, 0 where a box may hold some of the skin."""
+    if isinstance(thing, Surface):
+        f = _over(thing, IntervalSystem(F64), low, high)
+        certain = np.where(np.asarray(f.lo) > 0, 1, -1)
+        return np.broadcast_to(np.where(f.contains_zero(), 0, certain), (len(low),)).astype(np.int8)
+    signs = [_sign(part, low, high) for part in thing.of]
+    if thing.op == "not":
+        return np.negative(signs[0])
+    return np.minimum(*signs) if thing.op == "or" else np.maximum(*signs)
 
 
 class _Boxes:

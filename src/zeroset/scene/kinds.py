@@ -14,9 +14,9 @@ from zeroset.scene.lines import Path
 
 LONGEST = 60
 """Characters of a value that an error shows."""
-TEXTS = ("formula", "name", "source", "environment", "coloring", "by", "map")
+TEXTS = ("formula", "name", "solid", "source", "environment", "coloring", "by", "map")
 SWITCHES = ("shadows", "headlight")
-SINGLE = ("formula", "name", *SWITCHES)
+SINGLE = ("formula", "name", "solid", *SWITCHES)
 """What even an empty list is not."""
 CORNERS = ("center", "min", "max")
 TRIPLES = ("background", "eye", "target", "up", "front", "back", "direction", "color", "position", *CORNERS)
@@ -56,7 +56,7 @@ def shown(value: Any) -> str:
 
 def _leaves(value: Any, path: Path) -> Iterator[tuple[Path, Any]]:
     """Each value that is neither a table nor a list, or must not be, with its path."""
-    single = path[-1:] and path[-1] in SINGLE and path[0] != "params"
+    single = path[-1:] and path[-1] in SINGLE and _own(path)[:1] != ("params",)
     if isinstance(value, (Mapping, list)) and not single:
         for key, part in value.items() if isinstance(value, Mapping) else enumerate(value):
             yield from _leaves(part, (*path, key))
@@ -66,7 +66,7 @@ def _leaves(value: Any, path: Path) -> Iterator[tuple[Path, Any]]:
 
 def _wanted(path: Path) -> str:
     """What should stand at a path; of parameters, that their names may be any is no matter."""
-    names = [part for part in path if isinstance(part, str)]
+    names = [part for part in _own(path) if isinstance(part, str)]
     if names[0] == "params":
         return "a number"
     if names[-1] in TEXTS:
@@ -74,6 +74,11 @@ def _wanted(path: Path) -> str:
     if names[-1] in SWITCHES:
         return "true or false"
     return "three numbers" if names[-1] in TRIPLES and path[-1] == names[-1] else "a number"
+
+
+def _own(path: Path) -> Path:
+    """A path in the table of one of several surfaces, from that table on."""
+    return path[2:] if path[:1] == ("surfaces",) else path
 
 
 def dotted(path: Path) -> str:

@@ -1,7 +1,8 @@
-"""A scene: a surface with its camera, material, lights and background; what a ``.toml`` file holds."""
+"""A scene: what is drawn with its camera, material, lights and background; what a ``.toml`` file holds."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from zeroset.errors import ParameterError, ZerosetError
@@ -9,10 +10,15 @@ from zeroset.scene.camera import Camera
 from zeroset.scene.coloring import formula_of
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
+from zeroset.scene.several import Drawable, Several, as_drawable, plain_surface
+from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
 
 MOST_LIGHTS = 32
 """Lights of a scene: each is code in the shading kernel."""
+
+MOST_PARTS = 32
+"""Surfaces and isovalues of a scene, all together."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +26,7 @@ class Scene:
     """Everything that a picture needs.
 
     Attributes:
-        surface: what is drawn.
+        surface: what is drawn: a Surface, a Solid, or a sequence of both.
         camera: how it is seen; None takes the surface's own, or one that fits its bounds.
         material: its colours and reflectance.
         lights: where the light comes from.
@@ -36,7 +42,7 @@ class Scene:
         (0.0, 0.0, 0.0)
     """
 
-    surface: Surface
+    surface: Drawable
     camera: Camera | None = None
     material: Material = field(default_factory=Material)
     lights: tuple[Light, ...] = DEFAULT_LIGHTS
@@ -45,14 +51,16 @@ class Scene:
     environment: Environment | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.surface, Surface):
-            raise ParameterError(f"a scene's surface must be a Surface, not a {type(self.surface).__name__}")
+        object.__setattr__(self, "surface", as_drawable(self.surface))
         if not isinstance(self.material, Material):
             raise ParameterError(f"a scene's material must be a Material, not {self.material!r}")
+        if len(self.materials) > MOST_PARTS:
+            raise ParameterError(f"a scene has at most {MOST_PARTS} surfaces and isovalues, not {len(self.materials)}")
         if not isinstance(self.shadows, bool):
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
-        if self.material.coloring is not None:
-            formula_of(self.material.coloring, self.surface)
+        for material in self.materials:
+            if material.coloring is not None:
+                formula_of(material.coloring, self.plain("colouring by a quantity"))
         object.__setattr__(self, "environment", as_environment(self.environment))
         lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
         for light in lights:
@@ -63,15 +71,33 @@ class Scene:
         object.__setattr__(self, "lights", tuple(lights))
         object.__setattr__(self, "background", color(self.background, "the background"))
 
+    @property
+    def materials(self) -> tuple[Material, ...]:
+        """The material of each part of what is drawn."""
+        return self.surface.materials(self.material)
 
-def as_scene(value: Surface | Scene | str) -> Scene:
-    """A Scene as it is, a Surface or a formula with everything else by default."""
+    def plain(self, what: str) -> Surface:
+        """The surface f = 0, where that is all that is drawn; raises ``ParameterError`` where it is not.
+
+        Args:
+            what: what takes only such a surface, for the error: ``"the window"``.
+        """
+        return plain_surface(self.surface, what)
+
+
+Shown = Surface | Solid | Several | Scene | str | Sequence[Surface | Solid]
+"""What users give to be drawn."""
+
+
+def as_scene(value: Shown) -> Scene:
+    """A Scene as it is; a surface, a solid, several of them or a formula with everything else by default."""
     if isinstance(value, Scene):
         return value
-    if isinstance(value, Surface):
-        return Scene(value)
+    if isinstance(value, (Surface, Solid, Several, list, tuple)):
+        return Scene(as_drawable(value))
     if isinstance(value, str):
         return Scene(surface(value))
     raise ZerosetError(
-        f"cannot draw something of type {type(value).__name__}", hint="give a Surface, a Scene or a formula as text"
+        f"cannot draw something of type {type(value).__name__}",
+        hint="give a Surface, a Solid, a Scene or a formula as text",
     )

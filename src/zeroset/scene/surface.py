@@ -7,7 +7,7 @@ copies, and a copy that differs only in numbers runs on the same compiled kernel
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
@@ -16,60 +16,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, did_you_mean
-from zeroset.expr import OPS, Expr, degree, evaluate, parse, postorder, text
+from zeroset.errors import FormulaError, ParameterError, did_you_mean
+from zeroset.expr import Expr, parse, text
 from zeroset.expr.text import brief
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
+from zeroset.scene.exprfield import ExprField, check_work
+from zeroset.scene.isovalues import colors_of, isovalues_of
+from zeroset.scene.light import Color, Material
 from zeroset.scene.parameters import TIME, array, check_names, scalar
 
 if TYPE_CHECKING:
     import sympy
 
-MOST_WORK = 4000
-"""Operations up to which a formula is compiled, functions counted several times: about half a minute."""
-_FUNCTION_WORK = 8
-
-
-@dataclass(frozen=True)
-class ExprField:
-    """An expression as something to evaluate on any number system."""
-
-    expr: Expr
-
-    @property
-    def digest(self) -> str:
-        """Hash of the expression's structure."""
-        return self.expr.digest
-
-    @property
-    def parameters(self) -> frozenset[str]:
-        """Scalar parameters, with ``w`` where it is used."""
-        return self.expr.parameters | (self.expr.variables & {TIME})
-
-    @property
-    def arrays(self) -> frozenset[str]:
-        """Array parameters."""
-        return self.expr.arrays
-
-    @cached_property
-    def degree(self) -> int | None:
-        """An upper bound of the degree in x, y, z; None for what is no polynomial."""
-        return degree(self.expr)
-
-    @cached_property
-    def highest_power(self) -> int:
-        """The largest whole exponent in f as it is written."""
-        return max((abs(int(part.data[0])) for part in postorder(self.expr) if part.op == "powi"), default=1)
-
-    @cached_property
-    def work(self) -> int:
-        """What compiling f costs, in arithmetic operations; functions and powers count for several."""
-        return sum(_FUNCTION_WORK if OPS[part.op].kind == "function" else 1 for part in postorder(self.expr))
-
-    def evaluate(self, system: Any, env: Any) -> Any:
-        """f on numbers of ``system``."""
-        return evaluate(self.expr, system, env)
+    from zeroset.scene.solid import Solid
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +43,9 @@ class Surface:
         bounds: where it is drawn; None is fitted on first use.
         camera: how it is seen by default; None fits the bounds.
         name: what it is called, or "".
+        material: its own; None takes the scene's.
+        isovalues: where f is met, rising; empty for f = 0 alone.
+        colors: of the isovalues, linear RGB.
 
     Example:
         >>> import zeroset as zs
@@ -97,6 +60,9 @@ class Surface:
     bounds: Bounds | None = None
     camera: Camera | None = None
     name: str = ""
+    material: Material | None = None
+    isovalues: tuple[float, ...] = ()
+    colors: tuple[Color, ...] = ()
 
     def __post_init__(self) -> None:
         params = {TIME: 0.0} if TIME in self.field.parameters else {}
@@ -105,6 +71,13 @@ class Surface:
         check_names(self.field, params, arrays)
         object.__setattr__(self, "params", MappingProxyType(params))
         object.__setattr__(self, "arrays", MappingProxyType(arrays))
+        if self.material is not None and not isinstance(self.material, Material):
+            raise ParameterError(f"a surface's material must be a Material, not {self.material!r}")
+
+    @property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """Itself: what solids and scenes of several surfaces have many of."""
+        return (self,)
 
     @property
     def formula(self) -> str:
@@ -128,6 +101,67 @@ class Surface:
         """The same surface inside other bounds."""
         return dataclasses.replace(self, bounds=parse_bounds(bounds))
 
+    def with_material(self, material: Material | None) -> Surface:
+        """The same surface with a material of its own; None takes the scene's."""
+        return dataclasses.replace(self, material=material)
+
+    def with_isovalues(
+        self, values: float | Sequence[float] | None, colors: Sequence[Iterable[float]] | None = None
+    ) -> Surface:
+        """The surfaces f = v for several values v, found in one traversal, instead of f = 0 (K09 6.2).
+
+        The values are numbers of the kernels: other ones compile nothing anew, as long as they are as many.
+
+        Args:
+            values: one number or several, up to 16; None goes back to f = 0.
+            colors: linear RGB of each value, in the same order; None takes colours that are easily told apart.
+
+        Returns:
+            The surface; its ``isovalues`` are in rising order, and its ``colors`` along with them.
+
+        Raises:
+            ParameterError: a value that is no finite number, two equal ones, too many, or not as many colours.
+
+        Example:
+            >>> import zeroset as zs
+            >>> shells = zs.surface("x^2 + y^2 + z^2", bounds=2.0).with_isovalues((1.0, 0.25))
+            >>> zs.cast(shells, [0, -5, 0], [[0, 1, 0]], max_hits=4).part.tolist()
+            [[1, 0, 0, 1]]
+        """
+        chosen, order = isovalues_of(values)
+        return dataclasses.replace(self, isovalues=chosen, colors=colors_of(colors, order))
+
+    def mapped(self, change: Callable[[Surface], Surface]) -> Surface:
+        """Itself, changed: what solids and scenes do to each of their surfaces."""
+        return change(self)
+
+    def materials(self, usual: Material) -> tuple[Material, ...]:
+        """The material of each part: of the surface, or of each isovalue; ``usual`` where it has none of its own."""
+        own = self.material or usual
+        if not self.isovalues:
+            return (own,)
+        return tuple(dataclasses.replace(own, front=color, back=color) for color in self.colors)
+
+    def __and__(self, other: object) -> Solid:
+        from zeroset.scene.solid import join
+
+        return join("and", self, other)
+
+    def __or__(self, other: object) -> Solid:
+        from zeroset.scene.solid import join
+
+        return join("or", self, other)
+
+    def __sub__(self, other: object) -> Solid:
+        from zeroset.scene.solid import subtract
+
+        return subtract(self, other)
+
+    def __invert__(self) -> Solid:
+        from zeroset.scene.solid import Solid
+
+        return Solid("not", (self,))
+
     @cached_property
     def fitted(self) -> Bounds:
         """The bounds, fitted by interval subdivision where none were given."""
@@ -140,14 +174,7 @@ class Surface:
 
     def check_work(self) -> None:
         """Raise ``FormulaLimitError`` for a formula that no compiler digests while somebody waits."""
-        if self.field.work > MOST_WORK:
-            raise FormulaLimitError(
-                f"the formula has too many operations to be drawn: {self.field.work:,} of at most {MOST_WORK:,}",
-                hints=(
-                    "put repeated data (such as sphere centres) into an array parameter: sum(i, ... c[i] ...)",
-                    "draw parts of it as surfaces of their own",
-                ),
-            )
+        check_work(self.field.work)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Surface) and self._identity() == other._identity()
@@ -159,7 +186,8 @@ class Surface:
         """All that a surface is, as something to compare and to hash."""
         params = tuple(sorted(self.params.items()))
         arrays = tuple((name, values.tobytes()) for name, values in sorted(self.arrays.items()))
-        return self.field.digest, params, arrays, self.bounds, self.camera, self.name
+        looks = self.material, self.isovalues, self.colors
+        return self.field.digest, params, arrays, self.bounds, self.camera, self.name, *looks
 
     def __repr__(self) -> str:
         return f"<zeroset.Surface {self.name or brief(self.field.expr, 60)!r}>"

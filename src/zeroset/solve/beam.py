@@ -17,6 +17,8 @@ from typing import Any, NamedTuple
 from zeroset.arith import Dual, DualSystem
 from zeroset.kernel import BOOL, U32, Value, constant, for_, if_, while_
 from zeroset.solve.field import Lowered
+from zeroset.solve.shape import Body
+from zeroset.solve.subject import LoweredBody, Subject
 
 
 class Beam(NamedTuple):
@@ -32,18 +34,18 @@ class Patch(NamedTuple):
     """The rays through a patch of the frame.
 
     Attributes:
-        lowered: f in this kernel.
+        subject: what is searched, in this kernel.
         system: a three-symbol affine system; symbols 0 and 1 are u and v, symbol 2 is t.
         origin: origins of the rays, as numbers in u and v.
         direction: their directions.
-        outside: says where a region lies outside the bounds.
+        outside: says where a region lies outside a body's bounds.
     """
 
-    lowered: Lowered
+    subject: Subject
     system: Any
     origin: Sequence[Any]
     direction: Sequence[Any]
-    outside: Callable[[Sequence[Any]], Value]
+    outside: Callable[[Body, Sequence[Any]], Value]
 
     def over(self, a: Value, b: Value) -> tuple[Sequence[Any], Any]:
         """All points of the patch's rays with t in [a, b], and that t."""
@@ -53,10 +55,15 @@ class Patch(NamedTuple):
         return [o + d * t for o, d in zip(self.origin, self.direction, strict=True)], t
 
     def excludes(self, point: Sequence[Any]) -> Value:
-        """Whether f certainly has no zero inside the bounds at these points."""
-        f = self.lowered.evaluate(self.system, *point)
-        excluded: Value = ~f.contains_zero() | self.outside(point)
+        """Whether there is certainly nothing inside the bounds at these points."""
+        excluded = self.clears(self.subject.bodies[0], point)
+        for body in self.subject.bodies[1:]:
+            excluded = excluded & self.clears(body, point)
         return excluded
+
+    def clears(self, body: LoweredBody, point: Sequence[Any]) -> Value:
+        """Whether there is certainly nothing of one body inside its bounds at these points."""
+        return body.excludes(self.system, point) | self.outside(body.body, point)
 
 
 def trace_beam(patch: Patch, near: Value, far: Value, finest: Value) -> Beam:
@@ -113,7 +120,7 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value)
         point, t = patch.over(a, b)
         excluded = patch.excludes(point)
         asked = ~excluded & (h <= finest * EARLY)
-        (flat,) = if_(asked, lambda: (_flat_across(patch, t),), lambda: (True,))
+        (flat,) = if_(asked, lambda: (_flat_across(patch, point, t),), lambda: (True,))
         passed = excluded | ~flat
         thin = ~passed & (h <= finest)
         return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), thin, count + 1
@@ -122,17 +129,30 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value)
     return Thin(found, a + h * 0.5, count)
 
 
-def _flat_across(patch: Patch, t: Any) -> Value:
-    """Whether both derivatives of f across the pixel may vanish at this t.
+def _flat_across(patch: Patch, point: Sequence[Any], t: Any) -> Value:
+    """Whether both derivatives of f across the pixel may vanish at this t, for any f that may have a root there.
 
     They are the same code for u and for v, so it is there once and runs twice: a formula's derivative is most of the
     kernel, and the time to compile grows with the text.
     """
-    (flat,) = for_(2, lambda symbol, so_far: so_far & _may_vanish(patch, t, symbol), constant(True, BOOL))
+    fields = list(patch.subject.fields())
+
+    def narrow(symbol: Value, *so_far: Value) -> tuple[Value, ...]:
+        return tuple(
+            flat & _may_vanish(patch, lowered, t, symbol) for flat, (_, _, lowered) in zip(so_far, fields, strict=True)
+        )
+
+    if patch.subject.shape.plain:
+        (flat,) = for_(2, narrow, constant(True, BOOL))
+        return flat
+    open_ = [~(patch.clears(body, point) | body.free(leaf, patch.system, point)) for body, leaf, _ in fields]
+    flat, *others = for_(2, narrow, *open_)
+    for other in others:
+        flat = flat | other
     return flat
 
 
-def _may_vanish(patch: Patch, t: Any, symbol: Value) -> Value:
+def _may_vanish(patch: Patch, lowered: Lowered, t: Any, symbol: Value) -> Value:
     """Whether the derivative of f along one symbol of the patch, 0 or 1, may vanish at this t."""
     dual = DualSystem(patch.system, 1)
 
@@ -144,5 +164,5 @@ def _may_vanish(patch: Patch, t: Any, symbol: Value) -> Value:
         return Dual(dual, base, (patch.system.exact(symbol.eq(0).select(along_u, along_v)),))
 
     moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
-    vanishes: Value = patch.lowered.evaluate(dual, *moved).derivative(0).contains_zero()
+    vanishes: Value = lowered.evaluate(dual, *moved).derivative(0).contains_zero()
     return vanishes

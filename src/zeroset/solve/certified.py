@@ -31,6 +31,7 @@ class _Bisection(Method):
     """
 
     certified: ClassVar[bool] = True
+    enclosing: ClassVar[bool] = True
 
     axis: str = "t"
     delta: float = uniform(0.0)
@@ -90,6 +91,7 @@ class Auto(Method):
 
     name: ClassVar[str] = "auto"
     certified: ClassVar[bool] = True
+    enclosing: ClassVar[bool] = True
     summary: ClassVar[str] = "picks by degree and operators; always certified"
 
     def trace(self, problem: Problem) -> Answer:
@@ -98,4 +100,4 @@ class Auto(Method):
         from zeroset.solve.systems import automatic_system
         from zeroset.solve.walk import Striding
 
-        return search(problem, automatic_system(problem.lowered.field, problem.fmt), Striding())
+        return search(problem, automatic_system(problem.field, problem.fmt), Striding())

@@ -35,7 +35,9 @@ BEGIN = 0.25
 
 
 def can_clip(problem: Problem) -> bool:
-    """Whether f is a polynomial of a degree that is treated."""
+    """Whether f is a polynomial of a degree that is treated, and f = 0 is all that is searched."""
+    if problem.body is not None:
+        return False
     degree = problem.lowered.field.degree
     return degree is not None and 1 <= degree <= HIGHEST
 

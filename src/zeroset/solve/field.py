@@ -51,23 +51,27 @@ class Lowered:
         field: what is evaluated.
         builder: the kernel being traced.
         type: scalar type of the evaluation, f32 or f64.
+        prefix: before the names of its numbers, where a kernel holds several fields.
     """
 
-    def __init__(self, field: Field, builder: KernelBuilder, type_: Type = F32, offset: bool = False) -> None:
+    def __init__(
+        self, field: Field, builder: KernelBuilder, type_: Type = F32, offset: bool = False, prefix: str = ""
+    ) -> None:
         self.field = field
         self.builder = builder
         self.type = type_
+        self.prefix = prefix
         self._parameters = {name: self._uniform_pair(name) for name in sorted(field.parameters)}
         self._offset = self._uniform_pair(OFFSET) if offset else None
         self._arrays = {name: self._array(name) for name in sorted(field.arrays)}
 
     def _uniform_pair(self, name: str) -> tuple[Value, Value]:
-        value, error = parameter_names(name, self.type)
+        value, error = parameter_names(self.prefix + name, self.type)
         return self.builder.uniform(value, self.type), self.builder.uniform(error, self.type)
 
     def _array(self, name: str) -> tuple[Buffer, Buffer, Value]:
-        data, error = (self.builder.buffer(key, self.type) for key in array_names(name, self.type))
-        return data, error, self.builder.uniform(length_name(name), U32)
+        data, error = (self.builder.buffer(key, self.type) for key in array_names(self.prefix + name, self.type))
+        return data, error, self.builder.uniform(length_name(self.prefix + name), U32)
 
     def evaluate(self, system: Any, x: Number, y: Number, z: Number) -> Number:
         """f at numbers of ``system``; the offset, where there is one, is taken off."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from zeroset.kernel import Value
     from zeroset.solve.field import Field
     from zeroset.solve.problem import Answer, Problem
+    from zeroset.solve.shape import Shape
 
 HOMES = {
     "auto": "certified",
@@ -49,6 +50,8 @@ class Method:
 
     name: ClassVar[str] = ""
     certified: ClassVar[bool] = False
+    enclosing: ClassVar[bool] = False
+    """Whether it works by enclosures of f alone, and so on isovalues and solids as well."""
     summary: ClassVar[str] = ""
 
     offset: float = uniform(0.0)
@@ -77,6 +80,15 @@ class Method:
 
     def check(self, field: Field) -> None:
         """Raise ``MethodError`` where the method cannot treat this field."""
+
+    def check_shape(self, shape: Shape) -> None:
+        """Raise ``MethodError`` where the method cannot treat one of a shape's bodies."""
+        for body in shape.bodies:
+            if not body.plain and not self.enclosing:
+                what = "several isovalues" if body.levels else "solids"
+                raise MethodError(f"{self.name} cannot treat {what}", hint="'auto', 'affine' and 'interval' can")
+            for leaf, _ in body.leaves:
+                self.check(leaf.field)
 
     def trace(self, problem: Problem) -> Answer:
         """Emit the search for the first root into the kernel being traced."""

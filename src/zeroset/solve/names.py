@@ -8,6 +8,11 @@ OFFSET = "offset of f"
 """Parameter that no formula can name: what the offset option takes off f."""
 
 
+def isovalue_name(index: int) -> str:
+    """Parameter that no formula can name: one of a surface's isovalues."""
+    return f"isovalue {index}"
+
+
 def parameter_names(name: str, type_: Type) -> tuple[str, str]:
     """The uniforms that hold a parameter, as a kernel of one scalar type reads it: value and storage error."""
     return f"p_{name}_{type_}", f"p_{name}_{type_}_error"

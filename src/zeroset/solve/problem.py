@@ -9,12 +9,17 @@ shown to hold a sign change).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import Format
 from zeroset.kernel import F32, Scalar, Type, Value, constant, lift
-from zeroset.solve.field import Lowered, Ray
+from zeroset.solve.field import Field, Lowered, Ray
+
+if TYPE_CHECKING:
+    from zeroset.solve.shape import Body
+    from zeroset.solve.subject import LoweredBody
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +33,7 @@ class Problem:
         t1: its end; the ray misses the bounds where ``t1 <= t0``.
         tolerance: in units of t, at least a few units in the last place of t.
         step: a first guess of a step that might be free of roots.
+        body: what is searched where that is more than one f = 0: isovalues, a solid; ``lowered`` is then its first f.
     """
 
     lowered: Lowered
@@ -36,6 +42,22 @@ class Problem:
     t1: Value
     tolerance: Value
     step: Value
+    body: LoweredBody | None = None
+
+    @property
+    def field(self) -> Field | Body:
+        """What is searched, for those who choose a number system for it."""
+        return self.lowered.field if self.body is None else self.body.body
+
+    @property
+    def levels(self) -> int:
+        """How many isovalues there are; 0 where there are none."""
+        return 0 if self.body is None else self.body.body.levels
+
+    @property
+    def first_part_bit(self) -> int:
+        """The bit of the body's first part."""
+        return 1 if self.body is None else 1 << self.body.body.leaves[0][0].part
 
     @property
     def type(self) -> Type:
@@ -67,6 +89,7 @@ class Answer:
         clear: of a certified method that found something: there is certainly no root between the start and here.
         side: the certain sign of f where the ray comes from, just before t; 0 where it is not known.
         end: what was found is behind the ray here, and the search for what comes next may go on.
+        mark: the parts that it can be of, as bits; None where there is but one.
     """
 
     t: Value
@@ -75,3 +98,4 @@ class Answer:
     clear: Value
     side: Value
     end: Value
+    mark: Value | None = None

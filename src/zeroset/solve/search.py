@@ -13,12 +13,12 @@ So existence costs no evaluations of its own, and nothing is claimed that an enc
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from zeroset.arith import Affine as AffineForm
-from zeroset.arith import AffineSystem
-from zeroset.kernel import BOOL, U32, Value, constant, lift, while_
+from zeroset.kernel import BOOL, U32, Value, constant, while_
+from zeroset.solve.compound import Turn, look_at, note_parts
+from zeroset.solve.look import Interval, Look, read, stretch
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.status import HIT, MISS, UNRESOLVED
 from zeroset.solve.walk import State, Walk
@@ -27,55 +27,18 @@ ZONE = 3
 """How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
 
 
-@dataclass(frozen=True, slots=True)
-class Look:
-    """What one evaluation says of an interval [a, b].
-
-    Attributes:
-        excluded: mask, f has no root there.
-        crosses: mask, f certainly changes sign there, continuously.
-        defined: mask, f is defined and continuous there.
-        left: every root is at or after it.
-        right: every root is at or before it.
-        before: sign of f on [a, left), or on [a, b] where that is excluded.
-        after: sign of f on (right, b].
-        width: how wide the enclosure of f is.
-    """
-
-    excluded: Value
-    crosses: Value | bool
-    defined: Value | bool
-    left: Value
-    right: Value
-    before: Value
-    after: Value
-    width: Value
-
-
 def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
-    """Evaluate f on [a, b] and read off what it proves."""
-    middle = (a + b) * 0.5
-    # The rounded middle is not exactly in the middle, and the subtraction rounds too: a hair wider covers both.
-    half = (b - middle).maximum(middle - a) * (1.0 + 2.0**-20)
-    f = problem.lowered.along(system, problem.ray, stretch(system, middle, half))
-    excluded = ~lift(f.contains_zero(), BOOL)
-    one = problem.number(1.0)
-    bounds = f.interval()
-    width = problem.lift(bounds.hi) - problem.lift(bounds.lo)
-    sign = (problem.lift(bounds.lo) > 0.0).select(one, -one)
-    if not isinstance(f, AffineForm):
-        return Look(excluded, False, f.defined, a, b, sign, sign, width)
-    cut = f.contract()
-    left = problem.lift(cut.low).fma(half, middle).maximum(a)
-    right = problem.lift(cut.high).fma(half, middle).minimum(b)
-    # Where an operation leaves no slope at all, such as floor, contraction answers with literals.
-    after = lift(cut.rising, BOOL).select(one, -one)
-    return Look(excluded, cut.crosses, f.defined, left, right, excluded.select(sign, -after), after, width)
+    """Evaluate what is searched on [a, b] and read off what it proves."""
+    over = Interval.between(a, b)
+    t = stretch(system, over.middle, over.half)
+    if problem.body is not None:
+        return look_at(problem, problem.body, system, t, over)
+    return read(problem, problem.lowered.along(system, problem.ray, t), over)
 
 
-def stretch(system: Any, middle: Value, half: Value) -> Any:
-    """The numbers middle - half ... middle + half of an enclosing system; t is symbol 0 of an affine one."""
-    return system.symbol(0, middle, half) if isinstance(system, AffineSystem) else system.enclose(middle, half)
+def _differ(problem: Problem, a: Value, b: Value) -> Value:
+    """Whether two signs, or two labels of isovalues, are both known and not the same."""
+    return a.ne(0.0) & b.ne(0.0) & a.ne(b) if problem.levels else a * b < 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +49,14 @@ class _Zone:
     count: Value
     start: Value
     whole: Value
+    mark: Value | None = None
 
     def components(self) -> State:
         return self.sign, self.count, self.start, self.whole
+
+    def parts(self) -> State:
+        """The parts that they can be of, where there is a choice."""
+        return () if self.mark is None else (self.mark,)
 
 
 def search(
@@ -110,18 +78,19 @@ def search(
     alive = problem.t1 > problem.t0
     if wanted is not None:
         alive = alive & wanted
-    zone = _Zone(problem.number(0.0), none, problem.t0, constant(True, BOOL))
+    zone = _Zone(problem.number(0.0), none, problem.t0, constant(True, BOOL), None if problem.body is None else none)
 
     def running(*state: Value) -> Value:
         return state[n]
 
     def turn(*state: Value) -> State:
-        found, place, zone = _turn(problem, system, walk, delta, state[:n], _Zone(*state[n + 1 : n + 5]))
+        zone = _Zone(*state[n + 1 : n + 5], *state[n + 11 :])
+        found, place, zone = _turn(problem, system, walk, delta, state[:n], zone)
         over = found.status.ne(MISS) | walk.ended(problem, place)
-        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, *found.rest
+        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, *found.rest, *zone.parts()
 
     begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0), problem.t0)
-    state = while_(running, turn, *first, alive, *zone.components(), *begin)
+    state = while_(running, turn, *first, alive, *zone.components(), *begin, *zone.parts())
     return Answer(state[n + 6], state[n + 5], *state[n + 7 :])
 
 
@@ -158,7 +127,9 @@ def _turn(
     sign = cut.select(seen.before, zone.sign)
     # Right of what joins, up to b, the sign may be known as well: then the zone closes at once.
     ends = joins & (seen.right < b)
-    crossed = (closes & (zone.sign * seen.before < 0.0) & zone.whole) | (ends & (sign * seen.after < 0.0) & whole)
+    crossed = (closes & _differ(problem, zone.sign, seen.before) & zone.whole) | (
+        ends & _differ(problem, sign, seen.after) & whole
+    )
     hit = crossed | (proven & ~closes)
     unresolved = (closes | ends | (joins & (zone.count >= ZONE - 1))) & ~hit
 
@@ -178,4 +149,7 @@ def _turn(
     )
     # What closes a zone lies behind it; the sign before it was learnt earlier.
     side = closes.select(zone.sign, proven.select(seen.before, sign))
+    if zone.mark is not None:
+        mark, side = note_parts(problem, Turn(seen, zone.mark, in_zone, joins, proven, closes, hit, side))
+        after = replace(after, mark=mark)
     return _Found(status, (start + end) * 0.5, (start, side, end)), moved, after

@@ -19,13 +19,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from zeroset.surfaces.chebyshev import LEAST_ORDER, MOST_ORDER, chmutov_of_order
-from zeroset.surfaces.entry import BallBounds, BoxBounds, GalleryEntry, Source, View
-from zeroset.surfaces.load import family, index
+from zeroset.surfaces.entry import BallBounds, BoxBounds, GalleryEntry, SolidEntry, SolidPart, Source, View
+from zeroset.surfaces.load import family, index, solids
 
 if TYPE_CHECKING:
     from typing import NoReturn
 
-__all__ = ["BallBounds", "BoxBounds", "GalleryEntry", "Source", "View", "chmutov", "entry", "names"]
+__all__ = [
+    "BallBounds",
+    "BoxBounds",
+    "GalleryEntry",
+    "SolidEntry",
+    "SolidPart",
+    "Source",
+    "View",
+    "chmutov",
+    "entry",
+    "names",
+    "solids",
+]
 
 _CHMUTOV = "chmutov-"
 
@@ -53,6 +65,8 @@ def entry(name: str) -> GalleryEntry:
     order = name.removeprefix(_CHMUTOV)
     if order != name and order.isascii() and order.isdecimal() and len(order) <= 9 and order == str(int(order)):
         return chmutov(int(order))
+    if name in solids():
+        _no_surface(name)
     _unknown(name)
 
 
@@ -77,10 +91,18 @@ def chmutov(order: int) -> GalleryEntry:
     return family(listed)[name] if listed is not None else chmutov_of_order(order)
 
 
+def _no_surface(name: str) -> NoReturn:
+    from zeroset.errors import UnknownSurfaceError
+
+    raise UnknownSurfaceError(
+        f"{name} is a solid, not a surface", hint=f"zs.gallery.solids[{name!r}] in Python, zeroset render {name}"
+    )
+
+
 def _unknown(name: str) -> NoReturn:
     from zeroset.errors import UnknownSurfaceError, did_you_mean
 
     raise UnknownSurfaceError(
         f'the gallery has no surface "{name[:80]}"',
-        hints=(*did_you_mean(name, names()), "zeroset gallery lists all names"),
+        hints=(*did_you_mean(name, (*names(), *solids())), "zeroset gallery lists all names"),
     )

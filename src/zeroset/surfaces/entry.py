@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["BallBounds", "BoxBounds", "GalleryEntry", "Source", "Vector", "View"]
+__all__ = ["BallBounds", "BoxBounds", "GalleryEntry", "SolidEntry", "SolidPart", "Source", "Vector", "View"]
 
 Vector = tuple[float, float, float]
 """Three coordinates x, y, z."""
@@ -94,4 +94,46 @@ class GalleryEntry:
     source: tuple[Source, ...]
     params: Mapping[str, float] = field(default_factory=_no_params)
     arrays: Mapping[str, tuple[float, ...]] = field(default_factory=_no_arrays)
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class SolidPart:
+    """One surface of a solid, which stands for f <= 0.
+
+    Attributes:
+        formula: Text of the formula language, on one line.
+        front: Linear RGB of its outside.
+        back: Linear RGB of its inside.
+        params: Values of the formula's parameters.
+    """
+
+    formula: str
+    front: Vector
+    back: Vector
+    params: Mapping[str, float] = field(default_factory=_no_params)
+
+
+@dataclass(frozen=True)
+class SolidEntry:
+    """One solid of the gallery.
+
+    Attributes:
+        name: Its key: lower-case words joined by hyphens.
+        title: Its name for people.
+        solid: How it is made of its parts: "(a & b) - c".
+        parts: Its surfaces by the names they have there.
+        bounds: The region in which it is shown.
+        camera: The view that shows it.
+        source: The papers it is printed in.
+        note: What was corrected or chosen, and why.
+    """
+
+    name: str
+    title: str
+    solid: str
+    parts: Mapping[str, SolidPart]
+    bounds: BallBounds | BoxBounds
+    camera: View
+    source: tuple[Source, ...]
     note: str = ""

@@ -13,12 +13,12 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from zeroset.surfaces.entry import BallBounds, BoxBounds, GalleryEntry, Source, Vector, View
+from zeroset.surfaces.entry import BallBounds, BoxBounds, GalleryEntry, SolidEntry, SolidPart, Source, Vector, View
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["DATA", "FAMILIES", "family", "index"]
+__all__ = ["DATA", "FAMILIES", "SOLIDS", "family", "index", "solids"]
 
 FAMILIES = (
     "cubics",
@@ -35,6 +35,9 @@ FAMILIES = (
 
 DATA = Path(__file__).parent / "data"
 """Where the files are."""
+
+SOLIDS = "solids"
+"""The data file of the solids, which are no surfaces and have a list of their own."""
 
 _HEADER = re.compile(r"^\[([a-z0-9-]+)\]$", re.MULTILINE)
 
@@ -68,11 +71,41 @@ def _entry(name: str, table: Mapping[str, Any]) -> GalleryEntry:
         bounds=_bounds(table["bounds"]),
         camera=_view(table["camera"]),
         degree=table["degree"],
-        source=tuple(Source(each["paper"], each["where"], tuple(each["figures"])) for each in table["source"]),
+        source=_sources(table["source"]),
         params=MappingProxyType({key: float(value) for key, value in table.get("params", {}).items()}),
         arrays=MappingProxyType(arrays),
         note=_one_line(table["note"]),
     )
+
+
+@cache
+def solids() -> Mapping[str, SolidEntry]:
+    """The solids by name."""
+    import tomllib
+
+    return MappingProxyType({name: _solid(name, table) for name, table in tomllib.loads(_text(SOLIDS)).items()})
+
+
+def _solid(name: str, table: Mapping[str, Any]) -> SolidEntry:
+    return SolidEntry(
+        name=name,
+        title=table["title"],
+        solid=table["solid"],
+        parts=MappingProxyType({key: _part(part) for key, part in table["parts"].items()}),
+        bounds=_bounds(table["bounds"]),
+        camera=_view(table["camera"]),
+        source=_sources(table["source"]),
+        note=_one_line(table["note"]),
+    )
+
+
+def _part(table: Mapping[str, Any]) -> SolidPart:
+    params = MappingProxyType({key: float(value) for key, value in table.get("params", {}).items()})
+    return SolidPart(_one_line(table["formula"]), _vector(table["front"]), _vector(table["back"]), params)
+
+
+def _sources(tables: list[Mapping[str, Any]]) -> tuple[Source, ...]:
+    return tuple(Source(each["paper"], each["where"], tuple(each["figures"])) for each in tables)
 
 
 def _bounds(value: Any) -> BallBounds | BoxBounds:

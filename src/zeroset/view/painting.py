@@ -81,7 +81,7 @@ class Picture:
             "size": list(shot.size),
             "milliseconds": round(self.milliseconds, 2),
             "waited": round((time.perf_counter() - shot.asked) * 1e3 - self.milliseconds, 2),
-            "params": dict(shot.scene.surface.params),
+            "params": dict(shot.scene.plain("the window").params),
             "hits": self.hits,
             "unresolved": self.unresolved,
             "certified": self.certified,
@@ -177,8 +177,9 @@ def compile_and_show(wish: Wish, superseded: Superseded) -> Shown:
 
 
 def _show_scene(wish: Wish, scene: Scene) -> Shown:
-    refit = scene.surface.bounds is None
-    surface = scene.surface.with_bounds(scene.surface.fitted)
+    shape = scene.plain("the window")
+    refit = shape.bounds is None
+    surface = shape.with_bounds(shape.fitted)
     camera = scene.camera or surface.camera or fit_camera(surface.fitted)
     return Shown(wish, surface, camera, refit, (), _first(wish.shot, surface, camera))
 

@@ -242,7 +242,7 @@ class Session:
             self.trouble = picture.text
             return
         shot, before = picture.shot, self.picture
-        if shot.scene.surface.field.digest != self.state.surface.field.digest:
+        if shot.scene.plain("the window").field.digest != self.state.surface.field.digest:
             return
         self.picture, self.trouble = picture, ""
         self.times.append(picture.milliseconds)

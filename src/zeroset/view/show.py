@@ -12,6 +12,8 @@ from zeroset.errors import ParameterError, ViewError
 from zeroset.runtime import get_device
 from zeroset.scene.camera import Camera
 from zeroset.scene.scene import Scene
+from zeroset.scene.several import Several, plain_surface
+from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
 from zeroset.solve.method import Method, resolve_method
 from zeroset.view import canvas, notebook
@@ -70,7 +72,7 @@ def start(
 ) -> State:
     """The state that a window begins with, checked as far as that is quick."""
     get_device(device)
-    method.check(scene.surface.field)
+    method.check(scene.plain("the window").field)
     state = opened(scene, text, method, device, tolerance)
     return state if camera is None else replace(state, camera=camera, home=camera)
 
@@ -84,11 +86,13 @@ def scene_of(source: Surface | Scene | str) -> tuple[Scene, str]:
         ({'a': 1.0}, 'x^2 + a*y^2 = 1')
     """
     if isinstance(source, Scene):
-        return source, _text(source.surface)
+        return source, _text(source.plain("the window"))
     if isinstance(source, str):
         from zeroset.view.formula import read
 
         return Scene(read(source, {}).surface, background=BACKGROUND), source
+    if isinstance(source, (Solid, Several)):
+        source = plain_surface(source, "the window")
     if not isinstance(source, Surface):
         source = surface(source)
     return Scene(source, background=BACKGROUND), _text(source)

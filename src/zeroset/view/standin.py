@@ -24,7 +24,7 @@ Structure = tuple[str, str, str, Lighting, str, str]
 
 def structure(shot: Shot) -> Structure:
     """What the kernels of a picture depend on."""
-    surface = shot.scene.surface
+    surface = shot.scene.plain("the window")
     # A picture that moves has no smooth edges, but both are compiled together.
     light = Lighting.of(shot.scene, Smooth(shot.antialias))
     coloring = shot.scene.material.coloring

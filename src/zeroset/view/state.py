@@ -136,9 +136,11 @@ def dressed(material: Material, surface: Surface) -> Material:
 
 def opened(scene: Scene, text: str, method: Method, device: str, tolerance: float | None) -> State:
     """The state that a window opens with."""
-    surface = scene.surface
+    surface = scene.plain("the window")
     refit = surface.bounds is None
-    surface = surface.with_bounds(surface.fitted)
+    # The window has one material: the surface's own, where it has one.
+    material = surface.material or scene.material
+    surface = surface.with_bounds(surface.fitted).with_material(None)
     camera = scene.camera or surface.camera or fit_camera(surface.fitted)
     around = scene.environment
     return State(
@@ -147,7 +149,7 @@ def opened(scene: Scene, text: str, method: Method, device: str, tolerance: floa
         camera,
         camera,
         method,
-        scene.material,
+        material,
         scene.lights,
         scene.background,
         scene.shadows,

@@ -16,8 +16,8 @@ Run = Callable[..., object]
 def test_the_list_has_every_surface(zeroset: Run) -> None:
     ran = zeroset("gallery")
     assert ran.status == 0
-    listed = [line.split()[0] for line in ran.out.splitlines() if line][:-1]
-    assert listed == list(zs.gallery)
+    listed = [line.split()[0] for line in ran.out.splitlines() if line][:-2]
+    assert listed == [*zs.gallery, *zs.gallery.solids]
 
 
 def test_one_surface_is_described(zeroset: Run) -> None:
@@ -28,6 +28,14 @@ def test_one_surface_is_described(zeroset: Run) -> None:
     ran = zeroset("gallery", "barth")
     assert ran.status == 2
     assert "did you mean" in ran.err
+
+
+def test_one_solid_is_described(zeroset: Run) -> None:
+    ran = zeroset("gallery", "sesc-csg")
+    assert ran.status == 0
+    assert "se - sc" in ran.out
+    assert "1.741" in ran.out
+    assert "K09" in ran.out
 
 
 def test_a_sheet_of_all_surfaces(zeroset: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

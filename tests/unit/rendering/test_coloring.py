@@ -11,6 +11,7 @@ from tests.gpus import needs_gpu
 
 import zeroset as zs
 from zeroset.errors import ParameterError, UnknownNameError, ZerosetError
+from zeroset.rendering.drawn import as_drawn
 from zeroset.rendering.frame import settle
 from zeroset.rendering.shading import Lighting, Smooth, srgb
 from zeroset.rendering.tint import found_range
@@ -311,8 +312,8 @@ def test_plain_pictures_have_nothing_of_it() -> None:
     optics = Optics(True, False, True, False, False, False)
     kernels = [
         shade_kernel(Lighting.of(scene, Smooth())),
-        first_path_kernel(RING.field, False, "ball", optics),
-        path_kernel(RING.field, False, "ball", optics),
+        first_path_kernel(as_drawn(RING).shape, False, optics),
+        path_kernel(as_drawn(RING).shape, False, optics),
     ]
     for kernel in kernels:
         assert not {"value", "colors"} & {buffer.name for buffer in kernel.buffers}
@@ -365,3 +366,17 @@ def test_values_are_asked_for_in_vain() -> None:
 def test_what_nothing_can_be_coloured_by(by: str, kind: type[Exception], said: str) -> None:
     with pytest.raises(kind, match=said):
         zs.render(RING, 16, color_by=by)
+
+
+def test_only_one_plain_surface_is_coloured_by_a_quantity() -> None:
+    for shown in (RING - RING, [RING, RING], RING.with_isovalues((0.0, 0.1))):
+        with pytest.raises(ParameterError, match="colouring by a quantity takes one surface f = 0"):
+            zs.render(shown, 16, color_by="depth")
+
+
+def test_a_material_of_its_own_is_coloured_too() -> None:
+    own = RING.with_material(zs.Material(ambient=0.5))
+    image = zs.render(own, 32, color_by="x", device="cpu")
+    plain = zs.render(RING, 32, color_by="x", material=zs.Material(ambient=0.5), device="cpu")
+    assert np.array_equal(image.pixels, plain.pixels)
+    assert image.range == plain.range

@@ -7,7 +7,7 @@ import pytest
 from zeroset.errors import UnknownSurfaceError
 from zeroset.surfaces import chmutov, entry, names
 from zeroset.surfaces.chebyshev import chmutov_of_order
-from zeroset.surfaces.load import DATA, FAMILIES, family, index
+from zeroset.surfaces.load import DATA, FAMILIES, SOLIDS, family, index
 
 
 def test_every_table_of_every_file_is_listed_once() -> None:
@@ -17,7 +17,7 @@ def test_every_table_of_every_file_is_listed_once() -> None:
 
 
 def test_every_data_file_is_a_family() -> None:
-    assert {path.stem for path in DATA.glob("*.toml")} == set(FAMILIES)
+    assert {path.stem for path in DATA.glob("*.toml")} == {*FAMILIES, SOLIDS}
 
 
 def test_asking_for_a_name_parses_one_family_only(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,6 +22,7 @@ from zeroset.scene.bounds import Ball, Bounds, number
 from zeroset.scene.camera import Camera, fit_camera
 from zeroset.scene.pictures import picture_bytes
 from zeroset.scene.scene import Scene, as_scene
+from zeroset.scene.several import Drawable, Several
 from zeroset.scene.surface import Surface, surface
 
 MOST_FRAMES = 100_000
@@ -105,7 +106,8 @@ def storyboard(
     shapes = [_shape(scene.surface, vary, params, moment, closed) for moment in moments]
     if scene.surface.bounds is None:
         limits = common_bounds([shapes[i] for i in sorted({round(i) for i in np.linspace(0, count - 1, FITTED)})])
-        shapes = [dataclasses.replace(shape, bounds=limits) for shape in shapes]
+        # Each of several surfaces keeps to bounds of its own.
+        shapes = [shape if isinstance(shape, Several) else shape.with_bounds(limits) for shape in shapes]
     ways = _cameras(scene, shapes[0].fitted, camera, closed)
     return [
         dataclasses.replace(scene, surface=shape, camera=turned(ways(moment), degrees, moment))
@@ -113,8 +115,9 @@ def storyboard(
     ]
 
 
-def _check_moves(shape: Surface, vary: Mapping[str, Path], params: Params | None, camera: Any, degrees: float) -> None:
-    known = sorted(shape.field.parameters | shape.field.arrays)
+def _check_moves(shape: Drawable, vary: Mapping[str, Path], params: Params | None, camera: Any, degrees: float) -> None:
+    arrays = {name for surface in shape.surfaces for name in surface.field.arrays}
+    known = sorted({name for surface in shape.surfaces for name in surface.field.parameters} | arrays)
     for name, path in vary.items():
         if name not in known:
             near = (
@@ -122,8 +125,8 @@ def _check_moves(shape: Surface, vary: Mapping[str, Path], params: Params | None
                 f"it has {', '.join(known)}" if known else "it has none that could move",
             )
             raise ParameterError(f"the surface has no parameter {name!r}", hints=near)
-        if (name in shape.field.arrays) != (np.ndim(path.at(Moment(0, 1))) > 0):
-            kind = "an array" if name in shape.field.arrays else "a number"
+        if (name in arrays) != (np.ndim(path.at(Moment(0, 1))) > 0):
+            kind = "an array" if name in arrays else "a number"
             raise ParameterError(
                 f"{name} is {kind}, and moves as one", hint="arrays move by a function: params=lambda s: {...}"
             )
@@ -133,7 +136,7 @@ def _check_moves(shape: Surface, vary: Mapping[str, Path], params: Params | None
         raise ZerosetError("nothing moves in this animation", hints=hints)
 
 
-def _shape(shape: Surface, vary: Mapping[str, Path], params: Params | None, moment: Moment, closed: bool) -> Surface:
+def _shape(shape: Drawable, vary: Mapping[str, Path], params: Params | None, moment: Moment, closed: bool) -> Drawable:
     values: dict[str, Any] = {name: path.at(moment) for name, path in vary.items()}
     if params is not None:
         given = params(moment.share(closed))
@@ -161,7 +164,7 @@ def _a_camera(value: object) -> Camera:
     return value
 
 
-def common_bounds(shapes: Sequence[Surface]) -> Bounds:
+def common_bounds(shapes: Sequence[Drawable]) -> Bounds:
     """A ball that holds the surfaces at several moments, each fitted."""
     each = [shape.fitted for shape in shapes]
     low = np.min([np.subtract(one.center, one.reach) for one in each], axis=0)
@@ -181,7 +184,9 @@ def digest(scenes: Sequence[Scene]) -> str:
     for path in () if around is None else around.files():
         made.update(picture_bytes(path))
     for scene in scenes:
-        shape = scene.surface
-        values = sorted(shape.params.items()), [(name, shape.arrays[name].tolist()) for name in sorted(shape.arrays)]
-        made.update(repr((values, shape.bounds, scene.camera)).encode())
+        for shape in scene.surface.surfaces:
+            arrays = [(name, shape.arrays[name].tolist()) for name in sorted(shape.arrays)]
+            values = sorted(shape.params.items()), arrays
+            made.update(repr((values, shape.bounds)).encode())
+        made.update(repr((scene.surface.bounds, scene.camera)).encode())
     return made.hexdigest()

@@ -1,0 +1,80 @@
+"""What one evaluation of f over an interval says: whether it holds a root, where in it, and which sign f has around."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from zeroset.arith import Affine as AffineForm
+from zeroset.arith import AffineSystem
+from zeroset.kernel import BOOL, Value, lift
+from zeroset.solve.problem import Problem
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What one evaluation says of an interval [a, b].
+
+    Where there are several isovalues, a *label* stands in a sign's place: one more than how many of them are below f.
+
+    Attributes:
+        excluded: mask, f has no root there.
+        crosses: mask, f certainly changes sign there, continuously.
+        defined: mask, f is defined and continuous there.
+        left: every root is at or after it.
+        right: every root is at or before it.
+        before: sign of f on [a, left), or on [a, b] where that is excluded.
+        after: sign of f on (right, b].
+        width: how wide the enclosure of f is.
+        mark: the parts that a root there can be of, as bits; None where there is no choice.
+    """
+
+    excluded: Value
+    crosses: Value | bool
+    defined: Value | bool
+    left: Value
+    right: Value
+    before: Value
+    after: Value
+    width: Value
+    mark: Value | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """The interval [a, b] as middle and half width; these cover a and b whatever was rounded."""
+
+    a: Value
+    b: Value
+    middle: Value
+    half: Value
+
+    @classmethod
+    def between(cls, a: Value, b: Value) -> Interval:
+        """The interval between two values of t."""
+        middle = (a + b) * 0.5
+        # The rounded middle is not exactly in the middle, and the subtraction rounds too: a hair wider covers both.
+        half = (b - middle).maximum(middle - a) * (1.0 + 2.0**-20)
+        return cls(a, b, middle, half)
+
+
+def read(problem: Problem, f: Any, over: Interval) -> Look:
+    """Read off f over an interval what it proves."""
+    excluded = ~lift(f.contains_zero(), BOOL)
+    one = problem.number(1.0)
+    bounds = f.interval()
+    width = problem.lift(bounds.hi) - problem.lift(bounds.lo)
+    sign = (problem.lift(bounds.lo) > 0.0).select(one, -one)
+    if not isinstance(f, AffineForm):
+        return Look(excluded, False, f.defined, over.a, over.b, sign, sign, width)
+    cut = f.contract()
+    left = problem.lift(cut.low).fma(over.half, over.middle).maximum(over.a)
+    right = problem.lift(cut.high).fma(over.half, over.middle).minimum(over.b)
+    # Where an operation leaves no slope at all, such as floor, contraction answers with literals.
+    after = lift(cut.rising, BOOL).select(one, -one)
+    return Look(excluded, cut.crosses, f.defined, left, right, excluded.select(sign, -after), after, width)
+
+
+def stretch(system: Any, middle: Value, half: Value) -> Any:
+    """The numbers middle - half ... middle + half of an enclosing system; t is symbol 0 of an affine one."""
+    return system.symbol(0, middle, half) if isinstance(system, AffineSystem) else system.enclose(middle, half)

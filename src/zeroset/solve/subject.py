@@ -1,0 +1,158 @@
+"""A shape inside one kernel: its bodies with all their leaves lowered, ready to be evaluated on any number system."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from typing import Any
+
+from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Type, Value, constant, lift
+from zeroset.solve.field import Lowered
+from zeroset.solve.names import isovalue_name, parameter_names
+from zeroset.solve.problem import Answer, Problem
+from zeroset.solve.shape import Body, Complement, Join, Leaf, Shape, Tree
+from zeroset.solve.status import MISS
+
+Point = Sequence[Any]
+
+
+class LoweredBody:
+    """One body inside one kernel.
+
+    Attributes:
+        body: what it is.
+        builder: the kernel being traced.
+        type: scalar type of the evaluation, f32 or f64.
+    """
+
+    def __init__(self, body: Body, builder: KernelBuilder, type_: Type = F32, offset: bool = False) -> None:
+        self.body = body
+        self.builder = builder
+        self.type = type_
+        self._leaves = {leaf.part: Lowered(leaf.field, builder, type_, offset, leaf.prefix) for leaf, _ in body.leaves}
+        self._values = {leaf.part: [self._value(leaf, i) for i in range(leaf.levels)] for leaf, _ in body.leaves}
+
+    def _value(self, leaf: Leaf, i: int) -> tuple[Value, Value]:
+        value, error = parameter_names(leaf.prefix + isovalue_name(i), self.type)
+        return self.builder.uniform(value, self.type), self.builder.uniform(error, self.type)
+
+    @property
+    def first(self) -> Lowered:
+        """Its first leaf, which is all of a plain body."""
+        return self._leaves[self.body.leaves[0][0].part]
+
+    def leaf(self, leaf: Leaf) -> Lowered:
+        """One of its leaves."""
+        return self._leaves[leaf.part]
+
+    def isovalues(self, leaf: Leaf, system: Any) -> list[Any]:
+        """A leaf's isovalues, rising, as numbers of a system."""
+        return [system.enclose(*pair) for pair in self._values[leaf.part]]
+
+    def values(self, leaf: Leaf) -> list[Value]:
+        """A leaf's isovalues, rising."""
+        return [value for value, _ in self._values[leaf.part]]
+
+    def excludes(self, system: Any, point: Point) -> Value:
+        """Whether nothing of it is certainly at these points, given as numbers of an enclosing system."""
+        tree = self.body.tree
+        if isinstance(tree, Leaf):
+            return self.free(tree, system, point)
+        return self._sign(tree, system, point).ne(0.0)
+
+    def free(self, leaf: Leaf, system: Any, point: Point) -> Value:
+        """Whether a leaf has certainly no zero, or none of its isovalues, at these points."""
+        f = self.leaf(leaf).evaluate(system, *point)
+        if not leaf.levels:
+            return ~lift(f.contains_zero(), BOOL)
+        result = constant(True, BOOL)
+        for value in self.isovalues(leaf, system):
+            result = result & ~lift((f - value).contains_zero(), BOOL)
+        return result
+
+    def _sign(self, tree: Tree, system: Any, point: Point) -> Value:
+        """+1 outside, -1 inside, 0 where that is not certain."""
+        match tree:
+            case Leaf():
+                f = self.leaf(tree).evaluate(system, *point)
+                one = constant(1.0, self.type)
+                low = lift(f.interval().lo, self.type)
+                return lift(f.contains_zero(), BOOL).select(0.0, (low > 0.0).select(one, -one))
+            case Complement():
+                return -self._sign(tree.of, system, point)
+            case Join():
+                u, v = (self._sign(each, system, point) for each in (tree.left, tree.right))
+                return u.minimum(v) if tree.union else u.maximum(v)
+
+
+class Subject:
+    """A shape inside one kernel.
+
+    Attributes:
+        shape: what it is.
+        builder: the kernel being traced.
+        type: scalar type of the evaluation, f32 or f64.
+        bodies: each of its bodies.
+    """
+
+    def __init__(self, shape: Shape, builder: KernelBuilder, type_: Type = F32, offset: bool = False) -> None:
+        self.shape = shape
+        self.builder = builder
+        self.type = type_
+        self.bodies = [LoweredBody(body, builder, type_, offset) for body in shape.bodies]
+
+    def fields(self) -> Iterator[tuple[LoweredBody, Leaf, Lowered]]:
+        """All leaves with their bodies, lowered."""
+        for body, leaf, _ in self.leaves():
+            yield body, leaf, body.leaf(leaf)
+
+    def leaves(self) -> Iterator[tuple[LoweredBody, Leaf, int]]:
+        """All leaves with their bodies and the signs that turn their gradients outwards."""
+        for body in self.bodies:
+            for leaf, sign in body.body.leaves:
+                yield body, leaf, sign
+
+    def nearest(self, problem_of: Callable[[LoweredBody], Problem], trace: Callable[[Problem], Answer]) -> Answer:
+        """The first thing along a ray: body after body, each only up to what the ones before have found.
+
+        Args:
+            problem_of: the search for one body along all of the ray.
+            trace: searches.
+        """
+        best: Answer | None = None
+        for body in self.bodies:
+            problem = problem_of(body)
+            if best is not None:
+                found = best.status.ne(MISS)
+                problem = replace(problem, t1=found.select(problem.t1.minimum(best.end), problem.t1))
+            answer = trace(problem)
+            if answer.mark is None and self.shape.parts > 1:
+                answer = replace(answer, mark=constant(body.body.leaves[0][0].bits, U32))
+            best = answer if best is None else _nearer(best, answer)
+        assert best is not None
+        return best
+
+
+def _nearer(a: Answer, b: Answer) -> Answer:
+    """Of two answers the one that comes first along the ray."""
+    found_a, found_b = a.status.ne(MISS), b.status.ne(MISS)
+    second = found_b & (~found_a | (b.t < a.t))
+    assert a.mark is not None
+    assert b.mark is not None
+
+    def pick(x: Value, y: Value) -> Value:
+        return second.select(y, x)
+
+    return Answer(
+        pick(a.t, b.t),
+        pick(a.status, b.status),
+        a.steps + b.steps,
+        # Where both were found, the ray is clear up to the earlier of the two places where a find may begin.
+        (found_a & found_b).select(a.clear.minimum(b.clear), pick(a.clear, b.clear)),
+        pick(a.side, b.side),
+        pick(a.end, b.end),
+        pick(a.mark, b.mark),
+    )
+
+
+__all__ = ["LoweredBody", "Subject"]

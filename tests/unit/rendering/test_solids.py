@@ -1,0 +1,140 @@
+"""Solids against closed forms: where a ray goes in and out, of which part, with which normal, and what is drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.gpus import needs_gpu
+
+import zeroset as zs
+from zeroset.errors import MethodError, ParameterError
+from zeroset.rendering.drawn import as_drawn
+
+DEVICES = ["cpu", pytest.param("gpu", marks=needs_gpu)]
+ENCLOSING = ["auto", "affine", "interval"]
+A = zs.surface("x^2 + y^2 + z^2 = 1", name="a")
+B = zs.surface("(x - c)^2 + y^2 + z^2 = 1", {"c": 1.0}, name="b")
+FLOOR, CEILING = zs.surface("-z - h", {"h": 0.5}), zs.surface("z - h", {"h": 0.5})
+SOLIDS = {
+    "both": (A & B, lambda a, b: a & b),
+    "either": (A | B, lambda a, b: a | b),
+    "without": (A - B, lambda a, b: a & ~b),
+    "all but": (~A & B, lambda a, b: ~a & b),
+    "one of them": ((A - B) | (B - A), lambda a, b: a ^ b),
+    "neither": ((~(A | B)).with_bounds(3.0), lambda a, b: ~(a | b)),
+}
+ENDS = {0: (-1.0, 1.0), 1: (0.0, 2.0)}
+"""Where a line through the middle goes into each ball and out again, in x; moved in by how far off it passes."""
+
+
+def skin_along(name: str, off: float) -> list[tuple[float, int, float]]:
+    """x, part and sign of the outward normal's x of all that a line along x at a distance meets."""
+    inside = SOLIDS[name][1]
+    half = np.sqrt(1 - off * off)
+    ends = sorted((center + s * half, part) for part, center in ((0, 0.0), (1, 1.0)) for s in (-1, 1))
+
+    def within(x: float) -> bool:
+        return bool(inside(np.bool_(abs(x) < half), np.bool_(abs(x - 1) < half)))
+
+    made = []
+    for x, part in ends:
+        before, after = within(x - 1e-9), within(x + 1e-9)
+        if before != after:
+            made.append((x, part, -1.0 if after else 1.0))
+    return made
+
+
+@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("method", ENCLOSING)
+@pytest.mark.parametrize("name", SOLIDS)
+def test_two_balls(name: str, method: str, device: str) -> None:
+    solid = SOLIDS[name][0]
+    offs = np.array([0.0, 0.11, 0.35, 0.62, 0.8])
+    origins = np.stack([np.full(5, -5.0), offs, np.zeros(5)], axis=1)
+    hits = zs.cast(solid, origins, [1, 0, 0], max_hits=5, method=method, device=device)
+    for i, off in enumerate(offs):
+        expected = skin_along(name, float(np.float32(off)))
+        count = len(expected)
+        assert hits.status[i].tolist() == [zs.HIT] * count + [zs.MISS] * (5 - count)
+        assert np.abs(hits.t[i, :count] - 5.0 - [x for x, _, _ in expected]).max() < 1e-3
+        assert hits.part[i, :count].tolist() == [part for _, part, _ in expected]
+        assert np.sign(hits.normal[i, :count, 0]).tolist() == [sign for _, _, sign in expected]
+
+
+def test_a_slab_of_two_half_spaces() -> None:
+    slab = (FLOOR & CEILING).with_bounds(zs.Box((-1, -1, -1), (1, 1, 1)))
+    hits = zs.cast(slab, [0.2, 0.1, 5], [[0, 0, -1], [0.1, 0, -1], [1, 0, 0]], max_hits=3, device="cpu")
+    assert hits.status.tolist() == [[1, 1, 0], [1, 1, 0], [0, 0, 0]]
+    assert hits.part[0].tolist() == [1, 0, 0]
+    assert np.allclose(hits.t[0, :2], [4.5, 5.5], atol=1e-3)
+    assert np.allclose(hits.normal[0, :2], [[0, 0, 1], [0, 0, -1]], atol=1e-4)
+
+
+def test_inside_an_empty_or_full_solid_there_is_nothing() -> None:
+    for solid in ((A - A).with_bounds(2), (A | ~A).with_bounds(2)):
+        hits = zs.cast(solid, [-5, 0.1, 0.2], [1, 0, 0], device="cpu")
+        # Where a surface meets itself neither sign can be excluded nor proven: an honest answer, and never a hit.
+        assert hits.status[0] != zs.HIT
+    apart = zs.surface("(x - 5)^2 + y^2 + z^2 = 1")
+    assert zs.cast((A & apart).with_bounds(7), [-9, 0.1, 0.2], [1, 0, 0], device="cpu").status.tolist() == [zs.MISS]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_front_is_outside_and_each_part_has_its_material(device: str) -> None:
+    red, green = zs.Material(front=(1, 0, 0), back=(0, 0, 1)), zs.Material(front=(0, 1, 0), back=(0, 0, 1))
+    bite = A.with_material(red) - B.with_material(green)
+    camera = zs.Camera(eye=(6, -3, 1), target=(0, 0, 0), fov=25)
+    image = zs.render(bite, 96, camera=camera, device=device)
+    part, hit = image.aov("part"), image.aov("status") != zs.MISS
+    assert set(np.unique(part[hit])) == {0, 1}
+    red_pixels, green_pixels = (image.pixels[hit & (part == k)].astype(int) for k in (0, 1))
+    assert np.all(red_pixels[:, 0] > red_pixels[:, 1:].max(axis=1))
+    # The bite is the inner side of the second ball, and yet the outside of the solid.
+    assert np.all(green_pixels[:, 1] > green_pixels[:, 0])
+    assert np.all(green_pixels[:, 1] > green_pixels[:, 2])
+
+
+def test_fitted_bounds_hold_what_is_left() -> None:
+    assert 0.86 < (A & B).fitted.reach < 1.0
+    assert 1.5 < (A | B).fitted.reach < 1.75
+    infinite = zs.surface("y")
+    half = (A & infinite).fitted
+    assert 1.0 <= half.reach < 1.2
+
+
+def test_the_ends_of_a_picture_agree_with_its_rays() -> None:
+    solid = (A | B) - zs.surface("x^2 + z^2 = 0.1")
+    image = zs.render(solid, 80, device="cpu")
+    without = zs.render(solid, 80, device="cpu", thin=False)
+    assert image.unresolved <= 12
+    assert image.hits - without.hits == image.unresolved - without.unresolved
+
+
+def test_other_parameters_compile_nothing_and_move_the_part() -> None:
+    moved = (A - B).with_params(c=1.5)
+    assert as_drawn(moved).shape.digest == as_drawn(A - B).shape.digest
+    hits = zs.cast(moved, [-5, 0, 0], [[1, 0, 0]], max_hits=3, device="cpu")
+    assert np.allclose(hits.t[0, :2], [4.0, 5.5], atol=1e-3)
+
+
+def test_light_goes_through_solids() -> None:
+    glass = zs.Material(front=(0.2, 0.2, 0.2), opacity=0.0, ior=1.0)
+    lens = A.with_material(glass) & B.with_material(glass)
+    clear = zs.render(zs.Scene(lens, background=(0.2, 0.6, 0.9)), 48, device="cpu")
+    # A lens that bends and keeps nothing shows just what is behind it.
+    assert np.abs(clear.pixels.astype(int) - clear.pixels[0, 0]).max() <= 2
+    assert clear.hits > 300
+
+
+@pytest.mark.parametrize("method", ["mitchell", "analytic", "adaptive-marching-points"])
+def test_methods_that_cannot_say_which_can(method: str) -> None:
+    with pytest.raises(MethodError, match="solids") as caught:
+        zs.render(A - B, 16, method=method)
+    assert "'auto'" in str(caught.value.hints)
+
+
+def test_what_takes_no_solid_says_so() -> None:
+    with pytest.raises(ParameterError, match="a mesh takes one surface f = 0, not a solid"):
+        zs.mesh(A - B)  # type: ignore[arg-type]
+    with pytest.raises(ParameterError, match="the window takes one surface"):
+        zs.show(A - B)  # type: ignore[arg-type]
