@@ -22,7 +22,7 @@ ALL = "all"
 @click.command("figure")
 @click.argument("name", required=False)
 @click.option("-o", "--output", metavar="FILE", help="Picture to write; NAME.png if not given. For all: a folder.")
-@click.option("-s", "--size", type=click.IntRange(8, 2048), help="Pixels of a panel's side; each figure has its own.")
+@click.option("-s", "--size", type=click.IntRange(8, 2048), help="Width of a panel in pixels; each figure has its own.")
 @click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
 def command(name: str | None, output: str | None, size: int | None, device: str) -> None:
     """Draw the figure NAME of the papers, such as sn10-5 or k09-9; `all` for all of them, nothing for a list."""

@@ -11,6 +11,9 @@ from typing import Any
 
 SETTINGS = {
     "surface": "a name of the gallery",
+    "solid": "a solid of the gallery",
+    "isovalues": "values v for which f = v is drawn instead of f = 0",
+    "colors": "the isovalues' colours",
     "formula": "a formula, where the gallery has no such surface",
     "animation": "a named animation, in which params move",
     "at": "how far the animation is, 0 to 1",
@@ -78,7 +81,8 @@ class Figure:
         name: its key: ``sn10-5``.
         title: what it shows, in a line of our own.
         columns: most panels side by side.
-        size: usual pixels of a panel's side.
+        size: usual width of a panel in pixels.
+        aspect: height of a panel, as a share of its width.
         rows: its panels.
     """
 
@@ -86,6 +90,7 @@ class Figure:
     title: str
     columns: int
     size: int
+    aspect: float
     rows: tuple[Row, ...]
 
     @property

@@ -1,6 +1,6 @@
 """Where everything stands on a figure's page: panels in rows, labels under them, titles above, a caption at the end.
 
-All sizes follow from the panels' side. What would not be legible is left out: labels under panels that are narrower
+All sizes follow from the panels' width. What would not be legible is left out: labels under panels that are narrower
 than a few words, the caption of a page that is narrower than a line.
 """
 
@@ -14,10 +14,10 @@ from zeroset.figures.entry import Figure
 Measure = Callable[[str, int], float]
 """Width in pixels of a text in letters of so many pixels."""
 
-SMALLEST, LARGEST = 9, 40
+SMALLEST, LARGEST = 11, 40
 """Height of letters in pixels."""
 NARROWEST = 56
-"""Pixels of a panel's side below which nothing is written under it."""
+"""Pixels of a panel's width below which nothing is written under it."""
 NARROWEST_PAGE = 160
 """Pixels of a page's width below which it has no caption."""
 MOST_LINES = 4
@@ -52,16 +52,21 @@ class Plan:
     Attributes:
         width: in pixels.
         height: in pixels.
-        side: of each panel.
+        panel: width and height of each panel.
         corners: upper left corner of each panel, in reading order.
         texts: all lines of text.
     """
 
     width: int
     height: int
-    side: int
+    panel: tuple[int, int]
     corners: tuple[tuple[int, int], ...]
     texts: tuple[Text, ...]
+
+
+def panel_size(figure: Figure, width: int) -> tuple[int, int]:
+    """Width and height of a figure's panels, from their width."""
+    return width, max(round(width * figure.aspect), 1)
 
 
 def plan(figure: Figure, labels: Sequence[str], side: int, measure: Measure) -> Plan:
@@ -70,7 +75,7 @@ def plan(figure: Figure, labels: Sequence[str], side: int, measure: Measure) -> 
     Args:
         figure: what is shown.
         labels: what stands under each panel, in reading order.
-        side: pixels of a panel's side.
+        side: width of a panel in pixels.
         measure: tells how wide a text is.
     """
     sheet = _Sheet(figure, side, measure)
@@ -81,7 +86,7 @@ def plan(figure: Figure, labels: Sequence[str], side: int, measure: Measure) -> 
         for first in range(0, len(panels), figure.columns):
             sheet.line(panels[first : first + figure.columns])
     sheet.caption(f"{figure.source}: {figure.title}")
-    return Plan(sheet.width, sheet.y, side, tuple(sheet.corners), tuple(sheet.texts))
+    return Plan(sheet.width, sheet.y, panel_size(figure, side), tuple(sheet.corners), tuple(sheet.texts))
 
 
 def wrapped(text: str, width: float, measure: Callable[[str], float], most: int) -> list[str]:
@@ -120,7 +125,7 @@ class _Sheet:
 
     def __init__(self, figure: Figure, side: int, measure: Measure) -> None:
         columns = min(figure.columns, max(len(row.panels) for row in figure.rows))
-        self._side = side
+        self._side, self._height = panel_size(figure, side)
         self._measure = measure
         self._gap = max(round(side * 0.03), 2)
         self._size = min(max(round(side * 0.052), SMALLEST), LARGEST)
@@ -139,7 +144,7 @@ class _Sheet:
         """Panels side by side, with their labels."""
         corners = [(self._gap + i * (self._side + self._gap), self.y) for i in range(len(labels))]
         self.corners += corners
-        top = self.y + self._side
+        top = self.y + self._height
         lowest = top
         for (x, _), label in zip(corners, labels, strict=True):
             self.y = top + self._gap // 2

@@ -59,7 +59,8 @@ def find(name: str) -> Figure:
     shared = table.get("panels", [])
     rows = tuple(_row(row, common, shared) for row in table.get("rows", [{}]))
     widest = max(len(row.panels) for row in rows)
-    return Figure(key, " ".join(table["title"].split()), table.get("columns", widest), table.get("size", 360), rows)
+    columns, aspect = table.get("columns", widest), float(table.get("aspect", 1.0))
+    return Figure(key, " ".join(table["title"].split()), columns, table.get("size", 360), aspect, rows)
 
 
 def _row(row: Mapping[str, Any], common: Mapping[str, Any], shared: list[Mapping[str, Any]]) -> Row:

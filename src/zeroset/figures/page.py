@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.errors import ZerosetError
-from zeroset.figures.layout import Plan, plan
+from zeroset.figures.layout import Plan, panel_size, plan
 from zeroset.figures.load import find
 from zeroset.figures.panel import draw_panel
 from zeroset.runtime import Device, get_device
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Pixels = npt.NDArray[np.uint8]
 Progress = Callable[[float], None]
 LEAST, MOST = 8, 2048
-"""Pixels of a panel's side."""
+"""Pixels of a panel's width."""
 INK, FRAME = (28, 30, 34), (205, 207, 210)
 
 
@@ -30,7 +30,7 @@ def draw(name: str, size: int | None = None, device: str | Device = "auto", prog
 
     Args:
         name: as ``names()`` lists them: ``"sn10-5"``.
-        size: pixels of a panel's side, 8 to 2048; None takes the figure's usual one.
+        size: width of a panel in pixels, 8 to 2048; None takes the figure's usual one.
         device: as in ``render``.
         progress: called now and then with the share that is done, from 0 to 1.
 
@@ -48,11 +48,11 @@ def draw(name: str, size: int | None = None, device: str | Device = "auto", prog
     figure = find(name)
     side = figure.size if size is None else size
     if isinstance(side, bool) or not isinstance(side, int) or not LEAST <= side <= MOST:
-        raise ZerosetError(f"a panel's size must be from {LEAST} to {MOST} pixels a side, not {side!r}")
+        raise ZerosetError(f"a panel's size must be a whole number from {LEAST} to {MOST}, not {side!r}")
     target = get_device(device)
     pictures, labels = [], []
     for i, panel in enumerate(figure.panels):
-        pixels, label = draw_panel(panel, side, target, _part(progress, i, len(figure.panels)))
+        pixels, label = draw_panel(panel, panel_size(figure, side), target, _part(progress, i, len(figure.panels)))
         pictures.append(pixels)
         labels.append(label)
     if progress is not None:
@@ -65,7 +65,7 @@ def composed(page: Plan, pictures: Sequence[Pixels]) -> Pixels:
 
     Args:
         page: where everything stands.
-        pictures: each panel's pixels, (side, side, 3).
+        pictures: each panel's pixels, (height, width, 3).
 
     Returns:
         (height, width, 3).
@@ -76,7 +76,7 @@ def composed(page: Plan, pictures: Sequence[Pixels]) -> Pixels:
     pen = ImageDraw.Draw(sheet)
     for (x, y), picture in zip(page.corners, pictures, strict=True):
         sheet.paste(Image.fromarray(np.ascontiguousarray(picture)), (x, y))
-        pen.rectangle((x - 1, y - 1, x + page.side, y + page.side), outline=FRAME)
+        pen.rectangle((x - 1, y - 1, x + page.panel[0], y + page.panel[1]), outline=FRAME)
     for text in page.texts:
         anchor = "ma" if text.middle else "la"
         pen.text((text.x, text.y), text.text, font=_font(text.size), fill=INK, anchor=anchor)

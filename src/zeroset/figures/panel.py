@@ -17,27 +17,28 @@ from zeroset.runtime import Device
 
 Pixels = npt.NDArray[np.uint8]
 Progress = Callable[[float], None]
+Size = tuple[int, int]
 APART = 1e-3
 """Share of the distance from the eye by which a place may differ and still be the same."""
 OPTIONS = ("antialias", "depth", "thin", "draft")
 """Settings that ``render`` takes as they are."""
 
 
-def draw_panel(panel: Panel, size: int, device: Device, progress: Progress | None = None) -> tuple[Pixels, str]:
+def draw_panel(panel: Panel, size: Size, device: Device, progress: Progress | None = None) -> tuple[Pixels, str]:
     """A panel's pixels, and what stands under it.
 
     Args:
         panel: of a figure.
-        size: pixels of its side.
+        size: its width and height in pixels.
         device: where to draw.
         progress: told the share that is done.
 
     Returns:
-        (size, size, 3) sRGB, and the label with its numbers filled in.
+        (height, width, 3) sRGB, and the label with its numbers filled in.
     """
     settings = panel.settings
     if "mesh" in settings:
-        return draw_mesh(scene_of(settings), settings["mesh"], size, device), panel.label
+        return draw_mesh(scene_of(settings), settings["mesh"], size[0], device), panel.label
     image = _image(settings, size, device, progress)
     pixels = image.legend() if settings.get("legend") else image.pixels
     label = _filled(panel.label, image, lambda: _truth(settings, size, device))
@@ -64,11 +65,11 @@ def wrong_pixels(image: Image, truth: Image) -> int:
     return int(np.count_nonzero(apart | (np.isnan(found) != np.isnan(known))))
 
 
-def _truth(settings: Mapping[str, Any], size: int, device: Device) -> Image:
+def _truth(settings: Mapping[str, Any], size: Size, device: Device) -> Image:
     return render(scene_of(settings), size, device=device, thin=False)
 
 
-def _image(settings: Mapping[str, Any], size: int, device: Device, progress: Progress | None) -> Image:
+def _image(settings: Mapping[str, Any], size: Size, device: Device, progress: Progress | None) -> Image:
     scene = scene_of(settings)
     return render(
         scene,

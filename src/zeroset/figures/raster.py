@@ -43,7 +43,7 @@ def draw_mesh(scene: Scene, resolution: int, size: int, device: Device) -> npt.N
     """
     view = parse_camera(scene.camera, scene.surface.fitted)
     rays, layout = view.rays(size, size), Layout(size, size)
-    normals, seen = rasterised(mesh(scene.surface, resolution, device=device), rays, size)
+    normals, seen = rasterised(mesh(scene, resolution, device=device), rays, size)
     lighting = Lighting.of(scene, Smooth())
     uniforms = camera_uniforms(rays) | layout.uniforms()
     uniforms |= shading_uniforms(scene.material, scene.lights, scene.background, rays)

@@ -12,6 +12,8 @@ from zeroset.scene.camera import Camera, fit_camera
 from zeroset.scene.coloring import Coloring
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
 from zeroset.scene.scene import Scene
+from zeroset.scene.several import Drawable
+from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
 from zeroset.shelf import gallery
 from zeroset.solve import METHODS, Method
@@ -44,7 +46,7 @@ def method_of(settings: Mapping[str, Any]) -> Method:
     return METHODS[options.pop("name")](**options)
 
 
-def tolerance_of(settings: Mapping[str, Any], shape: Surface) -> float | None:
+def tolerance_of(settings: Mapping[str, Any], shape: Drawable) -> float | None:
     """World length to which a panel's roots are found; None for the usual one.
 
     K09 (section 6.1.2) gives precision as a part of the ray's stretch inside the bounds; here it is that part of their
@@ -53,20 +55,27 @@ def tolerance_of(settings: Mapping[str, Any], shape: Surface) -> float | None:
     return None if "bits" not in settings else shape.fitted.extent * 2.0 ** -settings["bits"]
 
 
-def _shape(settings: Mapping[str, Any]) -> Surface:
+def _shape(settings: Mapping[str, Any]) -> Surface | Solid:
+    if "solid" in settings:
+        return gallery.solids[settings["solid"]]
+    shape = _surface(settings)
+    return shape.with_isovalues(settings["isovalues"], settings.get("colors")) if "isovalues" in settings else shape
+
+
+def _surface(settings: Mapping[str, Any]) -> Surface:
     params, bounds = settings.get("params", {}), settings.get("bounds")
     if "animation" in settings:
         named = find_animation(settings["animation"])
         assert named is not None, settings["animation"]
         moment = Moment(round(settings.get("at", 0.0) * MOMENTS), MOMENTS)
         params = {name: path.at(moment) for name, path in named.vary.items()} | params
-        return surface(named.scene.surface, params, bounds)
+        return surface(named.scene.plain("an animation"), params, bounds)
     if "surface" in settings:
         return surface(gallery[settings["surface"]], params, bounds)
     return surface(settings["formula"], params, bounds)
 
 
-def _camera(shape: Surface, settings: Mapping[str, Any]) -> Camera:
+def _camera(shape: Surface | Solid, settings: Mapping[str, Any]) -> Camera:
     camera = shape.camera or fit_camera(shape.fitted)
     changes = _tuples(settings.get("camera", {}))
     camera = dataclasses.replace(camera, **changes)
