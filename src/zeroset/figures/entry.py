@@ -14,7 +14,7 @@ SETTINGS = {
     "solid": "a solid of the gallery",
     "isovalues": "values v for which f = v is drawn instead of f = 0",
     "colors": "the isovalues' colours",
-    "formula": "a formula, where the gallery has no such surface",
+    "formula": "a formula; beside a surface, in its place, with its bounds and camera",
     "animation": "a named animation, in which params move",
     "at": "how far the animation is, 0 to 1",
     "params": "values of parameters",

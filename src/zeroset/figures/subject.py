@@ -70,9 +70,10 @@ def _surface(settings: Mapping[str, Any]) -> Surface:
         moment = Moment(round(settings.get("at", 0.0) * MOMENTS), MOMENTS)
         params = {name: path.at(moment) for name, path in named.vary.items()} | params
         return surface(named.scene.plain("an animation"), params, bounds)
-    if "surface" in settings:
-        return surface(gallery[settings["surface"]], params, bounds)
-    return surface(settings["formula"], params, bounds)
+    if "surface" not in settings:
+        return surface(settings["formula"], params, bounds)
+    shape = surface(gallery[settings["surface"]], params, bounds)
+    return surface(settings["formula"], params, shape.bounds, shape.camera) if "formula" in settings else shape
 
 
 def _camera(shape: Surface | Solid, settings: Mapping[str, Any]) -> Camera:

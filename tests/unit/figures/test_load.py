@@ -8,6 +8,7 @@ import pytest
 import zeroset as zs
 from zeroset.errors import UnknownFigureError
 from zeroset.export.film.named import names as animations
+from zeroset.expr.polynomial import polynomial
 from zeroset.figures import Panel, find, names
 from zeroset.figures.entry import NUMBERS, SETTINGS
 from zeroset.figures.load import DIAGRAMS
@@ -29,8 +30,9 @@ def test_every_figure_with_surfaces_is_there():
 def test_every_panel_can_be_read(name: str, place: int, panel: Panel):
     settings = panel.settings
     assert set(settings) <= set(SETTINGS) - {"label"}
-    sources = {"surface", "formula", "animation", "solid"} & set(settings)
+    sources = {"surface", "animation", "solid"} & set(settings)
     assert len(sources) == 1, f"{sources} say what is drawn"
+    assert "formula" not in settings or "surface" in settings
     assert "animation" in settings or "at" not in settings
     assert settings.get("animation") in (*animations(), None)
     scene = scene_of(settings)
@@ -74,6 +76,20 @@ def test_rows_without_panels_have_the_figure_s_own():
 def test_the_nearest_settings_win():
     off, on = find("sn10-4").panels[0].settings["method"], find("sn10-4").panels[3].settings["method"]
     assert off == {**on, "silhouettes": False}
+
+
+@pytest.mark.parametrize(("place", "order"), [(0, 20), (3, 22), (4, 30)])
+def test_chmutov_by_powers_is_the_same_polynomial(place: int, order: int):
+    panel = find("sn10-11").rows[0].panels[place]
+    powers, known = scene_of(panel.settings).surface, zs.gallery[f"chmutov-{order}"]
+    assert panel.settings["surface"] == known.name
+    assert (powers.bounds, powers.field.degree) == (known.bounds, order)
+    ours, theirs = polynomial(powers.field.expr), polynomial(known.field.expr)
+    assert ours is not None
+    assert theirs is not None
+    assert ours.degrees == theirs.degrees == (order, order, order)
+    corners = [(0, 0, 0), *(place for i in range(1, order + 1) for place in ((i, 0, 0), (0, i, 0), (0, 0, i)))]
+    assert [ours.coefficient(*at) for at in corners] == [theirs.coefficient(*at) for at in corners]
 
 
 def test_animations_move():
