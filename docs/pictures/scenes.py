@@ -20,9 +20,9 @@ def painted(red: float, green: float, blue: float, **more: float) -> zs.Material
 
 def shells() -> zs.Scene:
     """Three isovalues of the tangle, cut open by a box."""
-    box = zs.Box((-3.2, -3.2, -3.2), (3.2, 0.0, 3.2))
-    surface = zs.gallery["tangle"].with_isovalues((-6.0, 0.0, 12.0)).with_bounds(box)
-    return zs.Scene(surface, zs.Camera(eye=(5, 8, 5), target=(0, -1, 0), fov=36))
+    box = zs.Box((-3.2, -3.2, -3.2), (3.2, -1.5, 3.2))
+    surface = zs.gallery["tangle"].with_isovalues((-5.0, 0.0, 12.0)).with_bounds(box)
+    return zs.Scene(surface, zs.Camera(eye=(3, 9, 4), target=(0, -2, 0), fov=37))
 
 
 def table() -> zs.Scene:

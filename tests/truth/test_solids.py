@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import numpy as np
 import pytest
 from tests.gpus import needs_gpu
@@ -78,6 +80,32 @@ def test_solids_and_isovalues_against_arb(name: str, method: str) -> None:
     assert broken == []
     assert settled > 25
     # In f64 hardly any ordinary root stays open.
+    assert unresolved <= 0.05 * settled
+
+
+def random_solid(rng: random.Random, depth: int = 3) -> Solid | Surface:
+    """A tree of joins over surfaces of several kinds, somewhere around the middle."""
+    if depth == 0 or rng.random() < 0.15:
+        x, y, z = (f"({axis} - ({rng.uniform(-0.8, 0.8):.2f}))" for axis in "xyz")
+        formulas = (
+            f"{x}^2 + {y}^2 + {z}^2 = {rng.uniform(0.1, 1):.2f}",
+            f"{x} + {rng.uniform(-2, 2):.1f}*{y} - {z}",
+            f"{x}^2 + {y}^2 = 0.2",
+            f"sin(4*{x}) + sin(4*{y})*{z}",
+            f"{x}*{y}*{z} = 0.03",
+        )
+        return zs.surface(rng.choice(formulas))
+    a, b = random_solid(rng, depth - 1), random_solid(rng, depth - 1)
+    return rng.choice([lambda: a & b, lambda: a | b, lambda: a - b, lambda: ~a])()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_solids_against_arb(seed: int) -> None:
+    thing = random_solid(random.Random(seed))
+    solid = (thing if isinstance(thing, Solid) else ~thing).with_bounds(1.5)
+    broken, settled, unresolved = hold(solid, 80, "interval" if seed % 4 == 3 else "auto", "cpu")
+    assert broken == []
+    assert settled > 50
     assert unresolved <= 0.05 * settled
 
 

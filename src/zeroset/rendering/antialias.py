@@ -1,15 +1,15 @@
 """Antialiasing where it matters: pixels at silhouettes, creases and borders get many rays, the others keep their one.
 
-A pixel is at an edge where a neighbour shows something else: nothing, another side of a crease, or a sheet that does
-not go on from this one's tangent plane (SN10 sections 3.4 and 7.1). Such a pixel's sum is begun anew with rays through
-its whole area, which take the same way as all rays beyond the first hit (``paths``): whatever a scene can show, its
-edges can. Pixels that are drawn because something thinner than a pixel lies in them keep their colour.
+A pixel is at an edge where a neighbour shows something else: nothing, another side of a crease, another part, or a
+sheet that does not go on from this one's tangent plane (SN10 sections 3.4 and 7.1). Such pixels are put on a list and
+drawn anew from many rays (``paths``), which go on as all others do: whatever a scene can show, its edges can. Pixels
+that are drawn because something thinner than a pixel lies in them keep their colour.
 """
 
 from __future__ import annotations
 
-from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, for_, if_, load, store
-from zeroset.rendering.buffers import ACCUMULATED, COUNTERS, NORMAL, PART, QUEUE_WORDS, QUEUEING
+from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, if_, load, store
+from zeroset.rendering.buffers import COUNTERS, EDGES, NORMAL, PART
 from zeroset.rendering.layout import frame_coordinates, lane_at, pixel_place, tile_of
 from zeroset.rendering.primary import EMPTY_TILE
 from zeroset.rendering.view import pixel_ray
@@ -20,8 +20,6 @@ CREASE = 0.92
 """Cosine between the normals of neighbours below which there is a crease."""
 STEP = 0.75
 """Pixels' widths by which a neighbour's point may lie off the tangent plane."""
-SPREAD = 0.7548776662466927, 0.5698402909980532
-"""Steps of a sequence that covers a square evenly, however many of its points are taken (M. Roberts' R2)."""
 
 
 class _Point:
@@ -48,12 +46,12 @@ class _Point:
 
 
 def edge_kernel(beams: bool, parts: bool = False) -> Kernel:
-    """Find the edges among a run of pixels and queue their rays.
+    """List the pixels at edges among a run of pixels.
 
-    ``beams``: these start where their tile's beam ended; ``parts``: where one part meets another there is an edge too.
+    ``beams``: whether tiles have beams; ``parts``: where one part meets another there is an edge too.
 
-    Uniforms beside the camera's: ``first``, the first lane; ``samples``, rays a pixel; ``everywhere``, 1 for all
-    pixels; ``world_pixel``, a pixel's width in the scene; ``next``, the queue's counter; ``capacity``, its room.
+    Uniforms beside the camera's: ``first``, the first lane; ``everywhere``, 1 for all pixels; ``world_pixel``, a
+    pixel's width in the scene.
     """
     with KernelBuilder("edges") as builder:
         lane = builder.index() + builder.uniform("first", U32)
@@ -67,10 +65,15 @@ def edge_kernel(beams: bool, parts: bool = False) -> Kernel:
 
         def look() -> None:
             edge = everywhere | _at_edge(builder, column, row, width, height, parts)
-            if_(edge, lambda: _queue(builder, lane, column, row, start))
+            if_(edge, lambda: _list(builder, lane))
 
         if_(inside & ~thin & (start < EMPTY_TILE), look)
     return builder.kernel
+
+
+def _list(builder: KernelBuilder, lane: Value) -> None:
+    slot = atomic("add", builder.buffer(COUNTERS, U32, writable=True), 0, 1)
+    store(builder.buffer(EDGES, U32, writable=True), slot, lane)
 
 
 def _at_edge(builder: KernelBuilder, column: Value, row: Value, width: Value, height: Value, parts: bool) -> Value:
@@ -86,40 +89,3 @@ def _at_edge(builder: KernelBuilder, column: Value, row: Value, width: Value, he
         edge = other if edge is None else edge | other
     assert edge is not None
     return edge
-
-
-def _queue(builder: KernelBuilder, lane: Value, column: Value, row: Value, start: Value) -> None:
-    """Begin a pixel's sum anew, and queue its rays; where there is no room it stays as it is."""
-    samples, capacity = builder.uniform("samples", U32), builder.uniform("capacity", U32)
-    counters = builder.buffer(COUNTERS, U32, writable=True)
-    slot = atomic("add", counters, builder.uniform("next", U32), samples)
-    room = slot + samples <= capacity
-    sums, plane = builder.buffer(ACCUMULATED, U32, writable=True), builder.uniform("plane", U32)
-
-    def begin() -> None:
-        for i, value in enumerate((0, 0, 0, 1)):
-            store(sums, lane + plane * i, value)
-
-    if_(room, begin)
-    # What is left of a queue that is full is filled with rays that count for nothing.
-    weight = room.select(1.0 / samples.convert(F32), 0.0)
-    within = room.select(samples, (slot < capacity).select(capacity - slot, constant(0, U32)))
-    _fill(builder, (lane, column, row), slot, within, start, weight)
-
-
-def _fill(
-    builder: KernelBuilder, pixel: tuple[Value, Value, Value], slot: Value, count: Value, start: Value, weight: Value
-) -> None:
-    lane, column, row = pixel
-    queue = builder.buffer(QUEUEING, U32, writable=True)
-
-    def one(j: Value) -> None:
-        u, v = ((j.convert(F32) + 0.5) * step for step in SPREAD)
-        across, down = column.convert(F32) + (u - u.floor()), row.convert(F32) + (v - v.floor())
-        ray = pixel_ray(builder, *frame_coordinates(builder, across, down))
-        place = (slot + j) * QUEUE_WORDS
-        store(queue, place, lane)
-        for i, number in enumerate((*ray.origin, *ray.direction, start, weight, weight, weight)):
-            store(queue, place + i + 1, number.bitcast(U32))
-
-    for_(count, one)

@@ -14,10 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.kernel.types import F32
-from zeroset.rendering.buffers import QUEUE_WORDS, VALUE, fields
+from zeroset.rendering.buffers import VALUE, fields
 from zeroset.rendering.frame import GBuffer
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import Optics
 from zeroset.rendering.tint import Palette
 from zeroset.runtime import Device
 from zeroset.scene.camera import Rays
@@ -46,19 +45,18 @@ class Band:
         return Rays(*[(float(v[0]), float(v[1]), float(v[2])) for v in (*vectors, *directions)])
 
 
-def largest_element(optics: Optics | None) -> int:
-    """Bytes of one pixel in the largest of a frame's buffers: the queue, where rays go on."""
-    return 4 if optics is None else 4 * QUEUE_WORDS * optics.rays_a_pixel
+ELEMENT = 4
+"""Bytes of one pixel in each of a frame's buffers."""
 
 
-def fits(layout: Layout, device: Device, optics: Optics | None = None) -> bool:
+def fits(layout: Layout, device: Device) -> bool:
     """Whether a device has buffers for a picture of this size."""
-    return layout.lanes * largest_element(optics) <= device.largest
+    return layout.lanes * ELEMENT <= device.largest
 
 
-def bands(layout: Layout, device: Device, optics: Optics | None = None) -> Iterator[Band]:
+def bands(layout: Layout, device: Device) -> Iterator[Band]:
     """The bands of a picture, from the top, as many rows in each as the device has room for."""
-    row_of_tiles = layout.columns * TILE * TILE * largest_element(optics)
+    row_of_tiles = layout.columns * TILE * TILE * ELEMENT
     height = max(device.largest // row_of_tiles, 1) * TILE
     for top in range(0, layout.height, height):
         yield Band(top, Layout(layout.width, min(height, layout.height - top)))

@@ -1,4 +1,4 @@
-"""The passes of rays beyond the first hit: one run for each length of path, on two queues by turns."""
+"""The passes of rays beyond the first hit, and of pixels that have many rays."""
 
 from __future__ import annotations
 
@@ -11,14 +11,13 @@ import numpy.typing as npt
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, U32
 from zeroset.rendering.buffers import (
-    ACCUMULATED,
     COUNTERS,
+    EDGES,
     LIGHT_WORDS,
     LIGHTS,
     PICTURE,
-    QUEUE_WORDS,
-    QUEUED,
-    QUEUEING,
+    STACK,
+    STACK_WORDS,
     TEXELS,
 )
 from zeroset.rendering.drawn import Drawn
@@ -31,7 +30,11 @@ from zeroset.solve.method import Method
 
 TILE_LANES = 64
 MOST_DEEP = 32
-"""Runs in a row: surfaces that one ray may meet after the first."""
+"""Surfaces that one ray may meet after the first."""
+STACK_BYTES = 1 << 26
+"""Memory for rays that wait."""
+AT_ONCE = 1 << 20
+"""Rays handed over at once: systems end the work of a GPU that takes seconds over it."""
 FARTHEST = 1e30
 
 
@@ -61,43 +64,36 @@ class Bounces:
         shape, offset = drawn.shape, method.offset != 0.0
         several = shape.parts > 1
 
-        def first() -> Kernel:
-            from zeroset.rendering.paths import first_path_kernel
-
-            return first_path_kernel(shape, offset, optics, tint is not None)
-
         def path() -> Kernel:
             from zeroset.rendering.paths import path_kernel
 
             return path_kernel(shape, offset, optics, tint)
 
-        def resolve() -> Kernel:
-            from zeroset.rendering.paths import resolve_kernel
+        def sample() -> Kernel:
+            from zeroset.rendering.paths import sample_kernel
 
-            return resolve_kernel(optics.plain)
+            return sample_kernel(shape, offset, optics, tracer.beams, tint)
 
         def edges() -> Kernel:
             from zeroset.rendering.antialias import edge_kernel
 
             return edge_kernel(tracer.beams, several)
 
+        own = f"{shape.digest} {offset} {optics}{'' if tint is None else f' {tint.digest}'}"
+        self._path, self._sample = f"path {own}", f"sample {own} {tracer.beams}"
         self._edges = f"edges {tracer.beams} {several}"
+        if not optics.plain:
+            tracer.add(self._path, path)
         if optics.smooth:
             tracer.add(self._edges, edges)
-        own = f"{shape.digest} {offset} {optics}"
-        first_own, path_own = ("", "") if tint is None else (" colored", f" {tint.digest}")
-        self._names = f"path_first {own}{first_own}", f"path {own}{path_own}", f"resolve {optics.plain}"
-        self._plain = optics.plain
-        for name, build in zip(self._names, (first, path, resolve), strict=True):
-            if not (self._plain and build is first):
-                tracer.add(name, build)
+            tracer.add(self._sample, sample)
+        self._optics = optics
         self._tracer = tracer
         self._device = device
         self._layout = layout
-        self._capacity = max(layout.lanes * optics.rays_a_pixel, 1 << 14)
-        self._queues = [device.allocate(U32, self._capacity * QUEUE_WORDS) for _ in range(2)]
-        self._sums = device.allocate(U32, layout.lanes * 4)
-        self._counters = device.allocate(U32, MOST_DEEP + 2)
+        self._listed = device.allocate(U32, layout.lanes) if optics.smooth else None
+        self._counters = device.allocate(U32, 1)
+        self._stack: tuple[int, Any] | None = None
         self._data: dict[str, tuple[Any, npt.NDArray[np.float32]]] = {}
 
     def run(
@@ -115,59 +111,57 @@ class Bounces:
             picture: where the bytes go.
             light: the lights, the surroundings, and how far rays are followed.
         """
-        first, _, resolve = self._names
-        lights, texels, depth = light.lights, light.texels, light.depth
+        lights, texels = light.lights, light.texels
         sides = {} if texels is None else {"face_side": round((texels.size / 18) ** 0.5)}
         common = {
             **uniforms,
             **sides,
             "lights": len(lights) // LIGHT_WORDS,
-            "capacity": self._capacity,
-            "plane": self._layout.lanes,
+            "depth": light.depth,
+            "plane": self._plane(light.depth),
             "farthest": FARTHEST,
             "shadow_tolerance": light.tolerance,
         }
-        buffers = {**bound, ACCUMULATED: self._sums, COUNTERS: self._counters, LIGHTS: self._kept(LIGHTS, lights)}
+        buffers = {**bound, PICTURE: picture, COUNTERS: self._counters, LIGHTS: self._kept(LIGHTS, lights)}
         if texels is not None:
             buffers[TEXELS] = self._kept(TEXELS, texels)
-        self._device.clear(self._sums)
-        self._device.clear(self._counters)
-        if not self._plain:
-            numbers = {**common, "next": 0, "goes_on": int(depth > 0)}
-            self._tracer.program(first).run(self._layout.lanes, numbers, {**buffers, QUEUEING: self._queues[0]})
-            self._follow(depth, common, buffers)
+        if self._optics.branches:
+            buffers[STACK] = self._stacked(common["plane"] * max(light.depth, 1))
+        if not self._optics.plain:
+            path, lanes = self._tracer.program(self._path), self._layout.lanes
+            for first in range(0, lanes, common["plane"]):
+                path.run(min(common["plane"], lanes - first), {**common, "first": first}, buffers)
+                self._device.submit()
         if light.samples > 1:
-            self._smooth(light, common, buffers)
-        self._tracer.program(resolve).run(self._layout.lanes, common, {**buffers, PICTURE: picture})
-
-    def _follow(self, depth: int, common: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
-        """Follow what is on the first queue over so many surfaces."""
-        path = self._tracer.program(self._names[1])
-        here, there = self._queues
-        for level in range(depth):
-            numbers = {**common, "next": level + 1, "goes_on": int(level + 1 < depth)}
-            path.run(Counted(self._counters, level), numbers, {**buffers, QUEUED: here, QUEUEING: there})
-            here, there = there, here
+            self._smooth(light, common, {**buffers, EDGES: self._listed})
 
     def _smooth(self, light: Illumination, common: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
-        """Draw pixels anew with many rays: parts of the frame by turns, as many as the queue is sure to hold."""
-        edges = self._tracer.program(self._edges)
+        """Draw pixels anew with many rays: parts of the frame by turns, so that none of them takes long."""
+        edges, sample = self._tracer.program(self._edges), self._tracer.program(self._sample)
         lanes = self._layout.lanes
-        # At edges there are far fewer: a quarter of all pixels is more than any picture has.
+        # At edges there are far fewer: a quarter of all pixels is more than most pictures have.
         share = light.samples if light.everywhere else max(light.samples // 4, 1)
-        part = max(min(self._capacity // share, lanes) // TILE_LANES, 1) * TILE_LANES
+        part = max(min(AT_ONCE // share, int(common["plane"])) // TILE_LANES, 1) * TILE_LANES
         for first in range(0, lanes, part):
+            numbers = {**common, "first": first, "samples": light.samples, "everywhere": int(light.everywhere)}
             self._device.clear(self._counters)
-            numbers = {
-                **common,
-                "first": first,
-                "next": 0,
-                "samples": light.samples,
-                "everywhere": int(light.everywhere),
-            }
-            edges.run(min(part, lanes - first), numbers, {**buffers, QUEUEING: self._queues[0]})
-            self._follow(light.depth + 1, common, buffers)
+            edges.run(min(part, lanes - first), numbers, buffers)
+            sample.run(Counted(self._counters, 0), numbers, buffers)
             self._device.submit()
+
+    def _plane(self, depth: int) -> int:
+        """Lanes of a run: where two rays may come of one, each needs room for those that wait."""
+        most = min(AT_ONCE, self._layout.lanes)
+        if not self._optics.branches:
+            return most
+        room = min(self._device.largest, STACK_BYTES) // (4 * STACK_WORDS * max(depth, 1))
+        return max(min(most, room) // TILE_LANES, 1) * TILE_LANES
+
+    def _stacked(self, rays: int) -> Any:
+        """The stack, with room for so many rays that wait."""
+        if self._stack is None or self._stack[0] < rays:
+            self._stack = rays, self._device.allocate(U32, rays * STACK_WORDS)
+        return self._stack[1]
 
     def _kept(self, name: str, values: npt.NDArray[np.float32]) -> Any:
         """A buffer with these values, written anew where they have changed."""

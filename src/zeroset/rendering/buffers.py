@@ -22,12 +22,12 @@ COUNTERS = "counters"
 """How long the lists are: the second look's, the blocks' and the pixels' with thin parts."""
 END = ("clear", "end")
 """Up to where a ray met nothing, and where what it met is behind it; for frames whose rays go on."""
-QUEUED, QUEUEING = "queued", "queueing"
-"""The rays that a run of paths takes, and those that it sends on."""
-QUEUE_WORDS = 12
-"""Words of a queued ray: pixel, origin, direction, start, weight, and one that is not used."""
-ACCUMULATED = "accumulated"
-"""Each pixel's sums of red, green and blue."""
+STACK = "stack"
+"""Rays that wait for their turn, of each lane its own."""
+STACK_WORDS = 9
+"""Words of one of them: origin, direction, start, weight, and how many surfaces it may still meet."""
+EDGES = "edges"
+"""The pixels that many rays are to be traced for."""
 LIGHTS = "light_data"
 """The lights' places and colours."""
 LIGHT_WORDS = 8

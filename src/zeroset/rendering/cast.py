@@ -100,10 +100,9 @@ def cast(
     shown.check(chosen)
     target = get_device(device)
     starts, ways = _rays(origins, directions)
-    bounds = shown.fitted
     uniforms = shown.limits() | shown.parameters(chosen)
     uniforms |= {
-        "tolerance": world_tolerance(tolerance, bounds),
+        "tolerance": world_tolerance(tolerance, shown.smallest),
         "near": _end(t_min, "t_min"),
         "far": _end(t_max, "t_max"),
     }

@@ -47,6 +47,11 @@ class Drawn:
         return self.thing.fitted
 
     @property
+    def smallest(self) -> Bounds:
+        """The smallest bounds of anything: what is asked of it decides how closely all roots are found."""
+        return min((thing.fitted for _, thing in self.bounded), key=lambda bounds: bounds.extent)
+
+    @property
     def arrays(self) -> bool:
         """Whether there are array parameters."""
         return any(surface.arrays for _, surface in self.surfaces)

@@ -15,7 +15,7 @@ from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.frame import GBuffer, Progress, frame_for
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.shading import Illumination, Lighting, Optics, Smooth, shading_uniforms
+from zeroset.rendering.shading import Illumination, Lighting, Smooth, shading_uniforms
 from zeroset.rendering.tint import Palette, Tint
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, number
@@ -71,7 +71,7 @@ def render(
         camera: None takes the scene's or the surface's own, or one that fits the bounds.
         method: ``"auto"`` or another name of ``zs.methods``, or an instance with options.
         device: ``"auto"``, ``"cpu"``, ``"interp"``, or a Device.
-        tolerance: world length to which roots are found; None takes 2^-14 of the bounds' extent.
+        tolerance: world length to which roots are found; None takes 2^-14 of the (smallest) bounds' extent.
         material: colours and reflectance.
         lights: where the light comes from; None takes two headlights.
         background: linear RGB.
@@ -120,14 +120,14 @@ def render(
     smooth = _smooth(antialias, samples)
     lighting = Lighting.of(scene, smooth)
     tint = Tint.of(scene, target)
-    whole = fits(layout, target, lighting.optics)
+    whole = fits(layout, target)
     # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, lighting, layout, target, draft, tint) if whole else None
     view = parse_camera(camera or scene.camera or scene.surface.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
-    uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.fitted))
+    uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.smallest))
     uniforms |= shading_uniforms(materials[0], lit, scene.background, rays)
-    coarse = shadow_length(shadow_tolerance, shown.fitted)
+    coarse = shadow_length(shadow_tolerance, shown.smallest)
     light = None
     if scene.shadows or lighting.optics is not None:
         light = Illumination.of(scene, rays, coarse, _depth(depth, lighting), smooth)
@@ -140,11 +140,11 @@ def render(
     else:
         if palette is not None and palette.range is None:
             # All bands have one range: that of the whole picture, drawn smaller.
-            small = _smaller(layout, target, lighting.optics)
+            small = _smaller(layout, target)
             seen = render(scene, (small.width, small.height), camera, method, target, tolerance, thin=thin)
             palette = replace(palette, range=seen.range)
         outputs = Assembled(layout, shown.parts, palette)
-        parts = tuple(bands(layout, target, lighting.optics))
+        parts = tuple(bands(layout, target))
         for i, band in enumerate(parts):
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
             part = frame_for(shown, chosen, lighting, band.layout, target, draft, tint)
@@ -170,13 +170,13 @@ def _share(progress: Progress | None, part: int, parts: int) -> Progress | None:
     return None if progress is None else lambda done: progress((part + done) / parts)
 
 
-def _smaller(layout: Layout, device: Device, optics: Optics | None) -> Layout:
+def _smaller(layout: Layout, device: Device) -> Layout:
     """A picture's size with its longer side cut down to ``PREVIEW``, and further until it fits."""
     side = min(PREVIEW, max(layout.width, layout.height))
     while True:
         scale = side / max(layout.width, layout.height)
         small = Layout(max(round(layout.width * scale), 1), max(round(layout.height * scale), 1))
-        if side <= TILE or fits(small, device, optics):
+        if side <= TILE or fits(small, device):
             return small
         side //= 2
 

@@ -51,9 +51,9 @@ class Optics:
     smooth: bool
 
     @property
-    def rays_a_pixel(self) -> int:
-        """How many rays of a pixel the queue has room for: seldom more than one is under way, almost never two."""
-        return 2 if (self.mirror or self.bends) and self.through else 1
+    def branches(self) -> bool:
+        """Whether two rays may come of one."""
+        return self.mirror and self.through
 
     @property
     def plain(self) -> bool:

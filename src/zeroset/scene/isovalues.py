@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
+from numbers import Real
+from typing import Any
 
 from zeroset.errors import ParameterError
 from zeroset.scene.bounds import number
@@ -29,7 +31,7 @@ def isovalues_of(values: float | Sequence[float] | None) -> tuple[tuple[float, .
     """The values in rising order, and the place that each had before; raises ``ParameterError``."""
     if values is None:
         return (), ()
-    given = [values] if isinstance(values, (int, float)) else values
+    given: Any = [values] if isinstance(values, Real) else values
     try:
         made = [number(value, "an isovalue", ParameterError) for value in given]
     except TypeError:

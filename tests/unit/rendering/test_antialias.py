@@ -76,7 +76,7 @@ def test_methods_without_beams_too() -> None:
     assert np.abs(smooth - coverage()).max() < 0.2
 
 
-def test_a_small_queue_is_used_again_and_again() -> None:
+def test_as_many_rays_as_there_may_be() -> None:
     everything = linear(draw(samples=256))
     assert np.abs(everything - coverage()).max() < 0.05
 

@@ -304,7 +304,7 @@ def test_another_map_or_range_compiles_nothing(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_plain_pictures_have_nothing_of_it() -> None:
-    from zeroset.rendering.paths import first_path_kernel, path_kernel
+    from zeroset.rendering.paths import path_kernel, sample_kernel
     from zeroset.rendering.shade import shade_kernel
     from zeroset.rendering.shading import Optics
 
@@ -312,8 +312,8 @@ def test_plain_pictures_have_nothing_of_it() -> None:
     optics = Optics(True, False, True, False, False, False)
     kernels = [
         shade_kernel(Lighting.of(scene, Smooth())),
-        first_path_kernel(as_drawn(RING).shape, False, optics),
         path_kernel(as_drawn(RING).shape, False, optics),
+        sample_kernel(as_drawn(RING).shape, False, optics, True),
     ]
     for kernel in kernels:
         assert not {"value", "colors"} & {buffer.name for buffer in kernel.buffers}

@@ -172,3 +172,25 @@ def test_what_cannot_be_drawn_together() -> None:
         zs.Scene([ball(i, 0, 0) for i in range(33)])
     with pytest.raises(ParameterError, match="a mesh takes one surface"):
         zs.mesh([BALL, BALL])  # type: ignore[arg-type]
+
+
+def test_a_small_thing_on_a_large_ground_is_found_as_closely_as_alone() -> None:
+    ground = zs.surface("z + 1", bounds=zs.Box((-500, -500, -2), (500, 500, 0)))
+    hits = zs.cast([ground, BALL], [[0.3, -5, 0.1], [0.3, -5, 0.1]], [[0, 1, 0], [0, 1, -0.5]], device="cpu")
+    assert hits.part.tolist() == [1, 0]
+    assert abs(float(hits.t[0]) - (5 - np.sqrt(0.9))) < 4 * 2.4 * 2.0**-14
+
+
+def test_a_mirror_that_is_touched_has_no_speckles() -> None:
+    """A short way to a plane is cut so sharply that rounding alone could put a mirrored ray's origin behind it."""
+    mirror = zs.Material((0.55, 0.57, 0.6), (0.55, 0.57, 0.6), specular=0, reflectance=0.25)
+    glass = zs.Material((0.3, 0.6, 0.4), (0.3, 0.6, 0.4), opacity=0.15, ior=1.25)
+    ground = zs.surface("z + 1", bounds=zs.Box((-4, -4, -1.1), (4, 4, -0.9))).with_material(mirror)
+    touching = zs.surface("(x - 2.2)^2 + (y + 0.4)^2 + z^2 = 1", bounds=zs.Ball(1.05, (2.2, -0.4, 0)))
+    camera = zs.Camera(eye=(1, -9, 4), target=(2.2, -0.4, -0.6), fov=9)
+    scene = zs.Scene([ground, touching.with_material(glass)], camera, background=(1, 0, 1))
+    seen = zs.render(scene, 160, device="cpu").pixels[55:100, 40:120].astype(int)
+    around = np.median([np.roll(seen, shift, (0, 1)) for shift in np.ndindex(3, 3)], axis=0)
+    # Within the ball the picture is smooth; the roll has moved the middle of each 3 by 3 by one.
+    rough = np.abs(np.roll(seen, (1, 1), (0, 1)) - around)[3:, 3:].max(axis=-1)
+    assert np.count_nonzero(rough > 8) == 0

@@ -97,7 +97,7 @@ def test_shadows_in_scene_files(tmp_path: Path) -> None:
     assert again.lights == (lamp,)
     text = (tmp_path / "scene.toml").read_text()
     (tmp_path / "wrong.toml").write_text(text.replace("shadows = true", 'shadows = "yes"'))
-    with pytest.raises(SceneFileError, match="True or False"):
+    with pytest.raises(SceneFileError, match="true or false"):
         zs.load(tmp_path / "wrong.toml")
 
 

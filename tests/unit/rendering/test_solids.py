@@ -138,3 +138,21 @@ def test_what_takes_no_solid_says_so() -> None:
         zs.mesh(A - B)  # type: ignore[arg-type]
     with pytest.raises(ParameterError, match="the window takes one surface"):
         zs.show(A - B)  # type: ignore[arg-type]
+
+
+def test_thin_parts_of_solids_and_isovalues_are_drawn() -> None:
+    # A line without any thickness: no ray meets it, and its pixels show it all the same.
+    line = zs.surface("(x - 0.01)^2 + y^2", name="line")
+    camera = zs.Camera(eye=(0, -6, 0), target=(0, 0, 0), fov=40)
+    for thing, parts in (
+        ((A | line).with_bounds(2.0), {1}),
+        (zs.surface(line.formula, bounds=2.0).with_isovalues((0.0, 5.0)), {0}),
+    ):
+        image = zs.render(thing, 65, camera=camera, device="cpu")
+        thin = image.aov("status") == zs.UNRESOLVED
+        rows = np.flatnonzero(thin.any(axis=1))
+        assert len(rows) >= 20
+        assert set(np.unique(image.aov("part")[thin])) == parts
+        columns = np.flatnonzero(thin.any(axis=0))
+        assert columns.max() - columns.min() <= 1
+        assert not zs.render(thing, 65, camera=camera, device="cpu", thin=False).unresolved

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import zeroset as zs
@@ -24,6 +25,11 @@ def test_values_rise_and_colours_go_with_them() -> None:
 def test_colours_are_there_without_asking() -> None:
     assert BALL.with_isovalues((1, 2)).colors == PALETTE[:2]
     assert len(BALL.with_isovalues(range(1, 17)).colors) == 16
+
+
+def test_numpy_s_numbers_are_numbers() -> None:
+    assert BALL.with_isovalues(np.int64(3)).isovalues == (3.0,)
+    assert BALL.with_isovalues(np.array([2.0, 1.0])).isovalues == (1.0, 2.0)
 
 
 def test_none_is_the_plain_surface_again() -> None:
