@@ -9,6 +9,7 @@
     ├── BoundsError (ValueError)           bounds that are empty, infinite, or cannot be fitted
     ├── CameraError (ValueError)           a camera that sees nothing
     ├── UnknownSurfaceError (KeyError)     no gallery entry of that name
+    ├── UnknownFigureError (KeyError)      no figure of that name
     ├── MethodError (ValueError)           a method that is unknown or cannot treat this surface
     ├── DeviceError (RuntimeError)         a device that is absent or failed
     │   └── DeviceLostError                a GPU that was reset, switched off or taken away
@@ -43,6 +44,7 @@ __all__ = [
     "OutputError",
     "ParameterError",
     "SceneFileError",
+    "UnknownFigureError",
     "UnknownNameError",
     "UnknownSurfaceError",
     "ViewError",
@@ -169,6 +171,13 @@ class CameraError(ZerosetError, ValueError):
 
 class UnknownSurfaceError(ZerosetError, KeyError):
     """The gallery has no surface of that name."""
+
+    # KeyError prints the repr of its argument; the text is wanted here.
+    __str__ = ZerosetError.__str__
+
+
+class UnknownFigureError(ZerosetError, KeyError):
+    """No figure of that name is among those of the papers."""
 
     # KeyError prints the repr of its argument; the text is wanted here.
     __str__ = ZerosetError.__str__

@@ -23,6 +23,7 @@ COMMANDS = {
     "mesh": "Make triangles of a surface: STL, OBJ, PLY or GLB.",
     "animate": "Draw a surface as it changes: a movie, or numbered pictures.",
     "gallery": "List the named surfaces, or draw them all on one sheet.",
+    "figure": "Draw a figure of the papers, or list them.",
     "explain": "Show a formula, its kernels after each pass, and the target code.",
     "bench": "Time the gallery on this machine.",
     "doctor": "Say what this machine offers and what is missing.",
