@@ -113,3 +113,14 @@ def test_a_ray_beside_it_is_a_miss(name: str, method: str) -> None:
     assert any(clear)
     hits = zs.cast(surface, origins[clear], directions[clear], method=proving_methods(surface)[method], device="cpu")
     assert (hits.status == zs.MISS).all()
+
+
+def test_rays_that_only_f64_shows_to_miss_leave_no_gaps() -> None:
+    """Close to Steiner's pinch point f32 leaves rays open that f64 sees pass the double line by."""
+    steiner = zs.gallery["knoll-steiner"]
+    close = zs.Camera(eye=(-0.00711, 0.005529, -0.495654), target=(0, 0, -0.5), fov=30)
+    image = zs.render(steiner, 340, camera=close, method="affine", tolerance=steiner.fitted.extent * 2.0**-18)
+    line = image.aov("status")[170:, 160:180] != zs.MISS
+    assert line.any(axis=1).all()
+    # It is one stroke in every row, not two with a gap between them.
+    assert np.all(np.abs(np.diff(line.astype(int), axis=1)).sum(axis=1) <= 2)

@@ -21,7 +21,7 @@ from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
 from zeroset.solve.shape import Shape
-from zeroset.solve.status import MISS
+from zeroset.solve.status import HIT
 from zeroset.solve.subject import LoweredBody, Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
@@ -88,7 +88,8 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
         if second:
             ask_second_look(builder, lane, answer)
         if beams:
-            ask_for_thin(builder, lane, answer.status.eq(MISS) & (near < EMPTY_TILE))
+            # What is unresolved may be shown by the second look to be missed.
+            ask_for_thin(builder, lane, answer.status.ne(HIT) & (near < EMPTY_TILE))
     return builder.kernel
 
 
