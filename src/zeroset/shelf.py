@@ -45,6 +45,10 @@ class Gallery(Mapping[str, Surface]):
         """The solids by name: K09's two CSG objects."""
         return _Solids()
 
+    def find(self, name: str) -> Surface | Solid:
+        """The surface or the solid of that name; raises ``UnknownSurfaceError`` where there is none."""
+        return self.solids[name] if name in solids() else self[name]
+
     def __repr__(self) -> str:
         return f"<zeroset.gallery of {len(self)} surfaces>"
 

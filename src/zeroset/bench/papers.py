@@ -12,6 +12,7 @@ from zeroset.bench.steady import frame_times
 from zeroset.bench.timing import Times
 from zeroset.errors import ZerosetError
 from zeroset.rendering.render import render
+from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface
 
 HARDWARE = "GPU"
@@ -91,7 +92,7 @@ def _anywhere(name: str, reference: PrintedTable) -> tuple[float, str]:
 
 
 def measure_paper(
-    reference: Reference, find: Callable[[str], Surface], method: str, devices: Devices, seconds: float
+    reference: Reference, find: Callable[[str], Surface | Solid], method: str, devices: Devices, seconds: float
 ) -> PaperCost:
     """Draw a reference's surface at the paper's size; an error is noted, not raised.
 

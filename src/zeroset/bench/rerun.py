@@ -25,13 +25,15 @@ from zeroset.export.marching.timing import time_extraction
 from zeroset.rendering.image import Image
 from zeroset.rendering.render import render
 from zeroset.scene.camera import Camera, parse_camera
+from zeroset.scene.several import plain_surface
+from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import METHODS, Method
 from zeroset.surfaces import entry
 
 UNKNOWN = "the gallery has no such surface"
 
-Find = Callable[[str], Surface]
+Find = Callable[[str], Surface | Solid]
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,10 +116,10 @@ def measure_row(
 class _Again:
     """One row's surface, drawn with any setting."""
 
-    def __init__(self, table: PrintedTable, row: Row, surface: Surface, devices: Devices, seconds: float) -> None:
+    def __init__(self, table: PrintedTable, row: Row, drawn: Surface | Solid, devices: Devices, seconds: float) -> None:
         self._table = table
         self._row = row
-        self._surface = surface
+        self._surface = drawn
         self._devices = devices
         self._seconds = seconds
         self._default: dict[int, Depth] = {}
@@ -144,7 +146,7 @@ class _Again:
 
     def _mesh(self, setting: Setting) -> Times:
         options: Mapping[str, Any] = setting.options
-        taken = time_extraction(self._surface, setting.cells, self._devices.steady, **options)
+        taken = time_extraction(plain_surface(self._surface, "a mesh"), setting.cells, self._devices.steady, **options)
         return Times(median(taken), min(taken), len(taken))
 
     def _frame(self, setting: Setting, cell: Cell) -> Cell:

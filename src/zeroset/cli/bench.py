@@ -170,7 +170,7 @@ def _papers(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> 
     wanted = tuple(references(wish.names))
     for i, reference in enumerate(wanted):
         progress(i / len(wanted))
-        yield measure_paper(reference, gallery.__getitem__, wish.method, devices, wish.seconds)
+        yield measure_paper(reference, gallery.find, wish.method, devices, wish.seconds)
 
 
 def _memory(wish: Wish, devices: Devices, progress: Callable[[float], None]) -> Iterator[Cost]:

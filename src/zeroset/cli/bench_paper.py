@@ -82,7 +82,7 @@ def _collect(table: PrintedTable, devices: Devices, seconds: float) -> tuple[Seq
         try:
             for i, row in enumerate(table.rows):
                 part = partial(_share, progress, i, len(table.rows))
-                costs.extend(measure_row(table, row, gallery.__getitem__, devices, seconds, part))
+                costs.extend(measure_row(table, row, gallery.find, devices, seconds, part))
         except KeyboardInterrupt:
             return costs, True
     return costs, False

@@ -77,17 +77,18 @@ def _draw_sheet(path: str, cell: int, method: str, device: str) -> None:
     from zeroset.shelf import gallery
 
     target, chosen = picture_path(path), read_method(method)
-    rows = -(-len(gallery) // COLUMNS)
+    things = (*gallery, *gallery.solids)
+    rows = -(-len(things) // COLUMNS)
     page = Image.new("RGB", (COLUMNS * cell, rows * (cell + CELL_TEXT)), "white")
     pen = ImageDraw.Draw(page)
     with Progress("drawing the gallery") as progress:
-        for i, name in enumerate(gallery):
-            progress(i / len(gallery))
-            picture = render(gallery[name], cell, method=chosen, device=device)
+        for i, name in enumerate(things):
+            progress(i / len(things))
+            picture = render(gallery.find(name), cell, method=chosen, device=device)
             x, y = i % COLUMNS * cell, i // COLUMNS * (cell + CELL_TEXT)
             page.paste(Image.fromarray(np.ascontiguousarray(picture.pixels)), (x, y))
             pen.text((x + cell // 2, y + cell + 2), name, fill="black", anchor="mt")
     data = encode(np.asarray(page), picture_format(target))
     with replacing(target) as file:
         file.write(data)
-    click.echo(f"{target}: {len(gallery)} surfaces")
+    click.echo(f"{target}: {len(gallery)} surfaces, {len(gallery.solids)} solids")

@@ -16,7 +16,7 @@ def test_the_best_of_a_row_and_of_a_paper() -> None:
     assert (ding_dong.anywhere, ding_dong.where) == (3750, "Table 3, analytic")
     both = list(references(["klein-bottle"]))
     assert [(r.table.paper, r.rate) for r in both] == [("SN10", 435), ("K09", 110)]
-    assert len(list(references())) == 36 + 14
+    assert len(list(references())) == 36 + 16
 
 
 def test_references_are_a_gpu_s_and_without_shadows() -> None:

@@ -189,5 +189,6 @@ def test_what_light_costs(zeroset: Any) -> None:
         "six reflections",
         "glass",
         "smooth edges, 16",
+        "two isovalues",
     ]
     assert all(float(row[5]) > 0 for row in rows)

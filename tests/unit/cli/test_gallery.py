@@ -43,7 +43,7 @@ def test_a_sheet_of_all_surfaces(zeroset: Run, tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(shelf.Gallery, "__iter__", lambda _: iter(few))
     monkeypatch.setattr(shelf.Gallery, "__len__", lambda _: len(few))
     ran = zeroset("gallery", "--sheet", "all.png", "--cell", "40")
-    assert (ran.status, ran.out) == (0, "all.png: 3 surfaces\n")
+    assert (ran.status, ran.out) == (0, "all.png: 3 surfaces, 2 solids\n")
     with Image.open(tmp_path / "all.png") as image:
         assert image.size == (8 * 40, 40 + 18)
         pixels = np.asarray(image.convert("RGB").crop((0, 0, 120, 40)))
