@@ -33,12 +33,24 @@ GPU_PARTS = {
 """For the machine with the GPU; the last one for one without, whose ``gpu`` is Mesa's driver in software."""
 TABLES = {table.id: (*ZEROSET, "paper", table.id, "--device", "cpu") for table in printed_tables()}
 """The papers' tables, a part each; all of them by the name ``tables``."""
+COMMANDS = (
+    "barth-sextic",
+    "barth-decic",
+    "tangle",
+    "blobby",
+    "blinn-blobby-30",
+    "labs",
+    "water",
+    "sin-blob",
+    "sarti-dodecic",
+)
+"""Formulas of every kind, with the ones that take longest."""
 PARTS = {
     "gallery": (*ZEROSET,),
     "one-thread": (*ZEROSET, "--threads", "1", "--size", "1024", "barth-sextic", "barth-decic", "chmutov-14"),
     "memory": (*ZEROSET, "--memory"),
     "light": (*ZEROSET, "--light", "--seconds", "2", "tangle", "barth-sextic"),
-    "cold": (*ZEROSET, "--cold", "barth-sextic", "barth-decic", "tangle", "blobby", "blinn-blobby-30"),
+    "cold": (*ZEROSET, "--cold", *COMMANDS),
     **TABLES,
     "peers": (sys.executable, str(ROOT / "bench" / "peers.py"), "--markdown"),
 }
