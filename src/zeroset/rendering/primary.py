@@ -21,7 +21,7 @@ from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
 from zeroset.solve.shape import Shape
-from zeroset.solve.status import HIT
+from zeroset.solve.status import MISS
 from zeroset.solve.subject import LoweredBody, Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
@@ -88,13 +88,12 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
         if second:
             ask_second_look(builder, lane, answer)
         if beams:
-            # What is unresolved may be shown by the second look to be missed.
-            ask_for_thin(builder, lane, answer.status.ne(HIT) & (near < EMPTY_TILE))
+            ask_for_thin(builder, lane, answer.status.eq(MISS) & (near < EMPTY_TILE))
     return builder.kernel
 
 
-def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: bool = False) -> Kernel:
-    """The rays on the list again, in f64."""
+def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: bool = False, beams: bool = False) -> Kernel:
+    """The rays on the list again, in f64; ``beams``: what they are shown to miss may be thinner than a pixel."""
     with KernelBuilder("second") as builder:
         place = builder.index()
         lane, clear = (load(builder.buffer(name, type_), place) for name, type_ in SECOND.items())
@@ -105,6 +104,8 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: bool = False) 
         # Even where it stays unresolved, f64 comes closer to a double root than f32 could see.
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
         write(builder, subject, lane, exact_ray(ray), replace(answer, steps=spent), ends)
+        if beams:
+            ask_for_thin(builder, lane, answer.status.eq(MISS))
     return builder.kernel
 
 

@@ -67,9 +67,10 @@ def thin_kernel(shape: Shape, offset: bool, ends: bool = False) -> Kernel:
         tile = tile_of(lane)
         start, step = (load(builder.buffer(name, F32), tile) for name in ("tile_start", "tile_step"))
         finest = builder.uniform("finest", F32) * (width * at.number(FINENESS)) * (1.0 / TILE)
-        # A pixel's parts are clear as far as the pixel was.
+        # A block's pixels are clear as far as the block was, and a pixel's parts as far as the pixel was.
+        reach = load(buffers["block_reach"], lane >> 4) - builder.uniform("finest", F32) * (WIDTHS[BLOCKS] / TILE)
         before = load(t, lane) - builder.uniform("finest", F32) * (2.0 / TILE)
-        start = at.pick((start, start, start.maximum(before)))
+        start = at.pick((start, start.maximum(reach), start.maximum(before)))
         missed = load(builder.buffer("status", U32, writable=True), lane).eq(MISS)
         marked = load(buffers["block_missed"], lane >> 4).ne(0)
         wanted = at.pick((marked, marked & missed, marked))
@@ -85,6 +86,7 @@ def _record(builder: KernelBuilder, at: _Level, subject: Subject, lane: Value, t
 
     def block() -> None:
         store(builder.buffer("thin_block", U32, writable=True), atomic("add", counters, 1, 1), lane >> 4)
+        store(builder.buffer("block_reach", F32, writable=True), lane >> 4, thin.t)
 
     def pixel() -> None:
         store(builder.buffer("thin_pixel", U32, writable=True), atomic("add", counters, 2, 1), lane)

@@ -99,7 +99,7 @@ class Tracer:
                 return second_layer_kernel(shape, offset, pixels)
             from zeroset.rendering.primary import second_kernel
 
-            return second_kernel(shape, offset, pixels, ends)
+            return second_kernel(shape, offset, pixels, ends, self.beams)
 
         def beams() -> Kernel:
             from zeroset.rendering.primary import beam_kernel
