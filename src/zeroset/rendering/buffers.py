@@ -16,8 +16,8 @@ FROM, ONWARD = "from", "onward"
 NOTHING = -1e30
 """Where it starts along a ray on which nothing was found yet: before every bounds."""
 THIN = {"block_missed": U32, "block_reach": F32, "thin_block": U32, "thin_pixel": U32}
-"""For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and where the first thing is
-that may be thinner than a pixel. Then the lists of blocks and of pixels that may hold such a thing."""
+"""For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and where the first thing
+is that may be thinner than a pixel. Then the lists of blocks and of pixels that may hold such a thing."""
 COUNTERS = "counters"
 """How long the lists are: the second look's, the blocks' and the pixels' with thin parts."""
 END = ("clear", "end")
