@@ -25,7 +25,7 @@ GALLERY, COLOURS, LIGHT = (100, 198), (100, 326), (100, 294)
 """Heads of panels: the gallery's as the window opens, the others' when it is closed."""
 SHADOWS, EDGES = (26, 525), (200, 557)
 """In the panel of light, where that alone is open."""
-AROUND, MIRROR = (200, 455), (110, 615)
+AROUND, MIRROR = (200, 487), (110, 647)
 """In the panel of colours, where that alone is open; the mirror's slider is at 0."""
 ASIDE = (100, 101)
 """A place where nothing happens."""
