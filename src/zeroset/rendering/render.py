@@ -132,7 +132,7 @@ def render(
     if scene.shadows or lighting.optics is not None:
         light = Illumination.of(scene, rays, coarse, _depth(depth, lighting), smooth)
     coloring = materials[0].coloring
-    palette = None if coloring is None else Palette.of(coloring, rays)
+    palette = None if coloring is None else Palette.of(coloring, scene.surface, rays)
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:

@@ -12,11 +12,12 @@ from zeroset.kernel.types import F32, F64, Type
 from zeroset.rendering.values import scalar_uniforms
 from zeroset.runtime import Device
 from zeroset.scene.camera import Rays
-from zeroset.scene.coloring import QUANTITIES, Coloring, formula_of
+from zeroset.scene.coloring import QUANTITIES, Coloring, formula_of, value_range
 from zeroset.scene.colormap import NEUTRAL, table
 from zeroset.scene.exprfield import ExprField
 from zeroset.scene.parameters import TIME
 from zeroset.scene.scene import Scene
+from zeroset.scene.several import Drawable, colored_surface
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 from zeroset.solve.names import OFFSET
@@ -53,7 +54,7 @@ class Tint:
         """The tint of a scene; None where nothing is coloured by a quantity."""
         if not any(material.coloring for material in scene.materials):
             return None
-        surface, coloring = scene.plain("colouring by a quantity"), scene.materials[0].coloring
+        surface, coloring = colored_surface(scene.surface), scene.materials[0].coloring
         assert coloring is not None
         formula = formula_of(coloring, surface)
         exact = formula is not None or QUANTITIES[coloring.by].order > 0
@@ -84,13 +85,14 @@ class Palette:
     range: tuple[float, float] | None = None
 
     @classmethod
-    def of(cls, coloring: Coloring, rays: Rays) -> Palette:
-        """The palette of a colouring as it is seen along a camera's rays."""
+    def of(cls, coloring: Coloring, drawn: Drawable, rays: Rays) -> Palette:
+        """The palette of what is coloured as it is seen along a camera's rays."""
         colors = np.concatenate([table(coloring.chosen_map), np.full((1, 3), NEUTRAL)])
         forward = np.asarray(rays.forward)
         view = {f"view_{axis}": float(v) for axis, v in zip("xyz", forward, strict=True)}
         view["view_start"] = float(forward @ np.asarray(rays.eye))
-        return cls(coloring, colors.astype(np.float32).reshape(-1), view, coloring.range)
+        range_ = coloring.range or value_range(coloring, colored_surface(drawn))
+        return cls(coloring, colors.astype(np.float32).reshape(-1), view, range_)
 
     def uniforms(self, low: float, high: float) -> dict[str, float]:
         """What the look-up of colours needs to know."""

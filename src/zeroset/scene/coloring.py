@@ -45,6 +45,7 @@ QUANTITIES = {
     "gradient": Quantity("|grad f|", False, 1),
     "steps": Quantity("evaluations"),
     "depth": Quantity("depth"),
+    "isovalue": Quantity("isovalue"),
 }
 """What can be named."""
 
@@ -57,7 +58,8 @@ class Coloring:
         by: ``gaussian-curvature`` (the product of the principal curvatures), ``mean-curvature`` (half their sum;
             positive where the surface bends away from growing f, 1/r for a ball with f < 0 inside), ``gradient``
             (the length of f's gradient), ``steps`` (evaluations of f for the ray), ``depth`` (distance along the
-            viewing direction), or a formula in x, y, z, w and the surface's parameters.
+            viewing direction), ``isovalue`` (which one it is, where there are several), or a formula in x, y, z, w and
+            the surface's parameters.
         map: a colour map: ``lagoon``, ``ember``, ``gray``, ``coolwarm``, ``earth`` or ``wheel``; None takes
             ``coolwarm`` for curvatures and ``lagoon`` for all else.
         range: values of the first and the last colour; None finds them from the picture: the 2nd and the 98th
@@ -123,6 +125,12 @@ def formula_of(coloring: Coloring, surface: Surface) -> ExprField | None:
         FormulaError: it is a formula with a mistake; the message shows where.
         FormulaLimitError: it is too long to be compiled.
     """
+    if coloring.by == "isovalue":
+        # What a ray meets where f is one of them is f.
+        if not surface.isovalues:
+            hint = "surface.with_isovalues((0.0, 0.5)), or --isovalues 0,0.5"
+            raise ParameterError("the surface has no isovalues that it could be coloured by", hint=hint)
+        return surface.field
     if coloring.by in QUANTITIES:
         return None
     try:
@@ -132,6 +140,14 @@ def formula_of(coloring: Coloring, surface: Surface) -> ExprField | None:
     if made.work > MOST_WORK:
         raise FormulaLimitError(f"the formula to colour by has more than {MOST_WORK:,} operations")
     return made
+
+
+def value_range(coloring: Coloring, surface: Surface) -> Range | None:
+    """The range that a quantity has by itself; None where it is found from the picture."""
+    if coloring.by != "isovalue":
+        return None
+    low, high = surface.isovalues[0], surface.isovalues[-1]
+    return (low, high) if low < high else (low - 1.0, high + 1.0)
 
 
 @lru_cache(maxsize=32)

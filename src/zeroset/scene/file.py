@@ -38,7 +38,7 @@ from zeroset.scene.lines import Lines, read_toml
 from zeroset.scene.lines import Path as KeyPath
 from zeroset.scene.places import for_folder, from_folder
 from zeroset.scene.scene import MOST_LIGHTS, Scene, Shown, as_scene
-from zeroset.scene.several import Drawable, plain_surface
+from zeroset.scene.several import Drawable, colored_surface
 
 KEYS = (*TOP, "background", "camera", "material", "lights", "shadows", "environment")
 LARGEST = 4_000_000
@@ -161,7 +161,7 @@ class _Reader:
             known: Coloring = material.coloring
             inside = ("by",) if isinstance(data["coloring"], Mapping) else ()
             with _placing(self, lambda error: ("material", "coloring", *inside)):
-                formula_of(known, plain_surface(shape, "colouring by a quantity"))
+                formula_of(known, colored_surface(shape))
         return material
 
     def material(self, data: Any, path: KeyPath) -> Material:

@@ -10,7 +10,7 @@ from zeroset.scene.camera import Camera
 from zeroset.scene.coloring import formula_of
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
-from zeroset.scene.several import Drawable, Several, as_drawable, plain_surface
+from zeroset.scene.several import Drawable, Several, as_drawable, colored_surface, plain_surface
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
 
@@ -60,7 +60,7 @@ class Scene:
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
         for material in self.materials:
             if material.coloring is not None:
-                formula_of(material.coloring, self.plain("colouring by a quantity"))
+                formula_of(material.coloring, colored_surface(self.surface))
         object.__setattr__(self, "environment", as_environment(self.environment))
         lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
         for light in lights:

@@ -119,3 +119,8 @@ def plain_surface(value: Drawable, what: str) -> Surface:
     raise ParameterError(
         f"{what} takes one surface f = 0, not {found}", hint="zs.render and zeroset render draw all of them"
     )
+
+
+def colored_surface(value: Drawable) -> Surface:
+    """The surface that a quantity is to colour; raises ``ParameterError`` for solids and several ones."""
+    return value if isinstance(value, Surface) else plain_surface(value, "colouring by a quantity")

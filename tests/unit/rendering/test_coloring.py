@@ -368,8 +368,8 @@ def test_what_nothing_can_be_coloured_by(by: str, kind: type[Exception], said: s
         zs.render(RING, 16, color_by=by)
 
 
-def test_only_one_plain_surface_is_coloured_by_a_quantity() -> None:
-    for shown in (RING - RING, [RING, RING], RING.with_isovalues((0.0, 0.1))):
+def test_only_one_surface_is_coloured_by_a_quantity() -> None:
+    for shown in (RING - RING, [RING, RING]):
         with pytest.raises(ParameterError, match="colouring by a quantity takes one surface f = 0"):
             zs.render(shown, 16, color_by="depth")
 
@@ -380,3 +380,26 @@ def test_a_material_of_its_own_is_coloured_too() -> None:
     plain = zs.render(RING, 32, color_by="x", material=zs.Material(ambient=0.5), device="cpu")
     assert np.array_equal(image.pixels, plain.pixels)
     assert image.range == plain.range
+
+
+@pytest.mark.parametrize("where", ["cpu", pytest.param("gpu", marks=needs_gpu)])
+def test_isovalues_have_their_own_colours_from_the_map(where: str) -> None:
+    shells = zs.surface("x^2 + y^2 + z^2", bounds=zs.Box((-2, 0, -2), (2, 2, 2))).with_isovalues((0.25, 1.0, 2.25))
+    into = zs.Camera(eye=(0.0, -6.0, 0.0), height=3.5)
+    image = zs.render(shells, 64, camera=into, color_by="isovalue", device=where)
+    values, parts = image.aov("value"), image.aov("part")
+    seen = image.aov("status") != zs.MISS
+    assert image.range == (0.25, 2.25)
+    assert set(parts[seen].tolist()) == {0, 1, 2}
+    assert np.abs(values[seen] - np.array([0.25, 1.0, 2.25])[parts[seen]]).max() < 0.01
+    assert zs.render(shells.with_isovalues(1.0), 16, color_by="isovalue").range == (0.0, 2.0)
+
+
+def test_isovalues_are_coloured_by_other_quantities_too() -> None:
+    shells = zs.surface("x^2 + y^2 + z^2", bounds=2).with_isovalues((0.25, 1.0))
+    curved = zs.render(shells, 48, color_by="gaussian-curvature").aov("value")
+    assert np.nanmax(np.abs(curved - 1.0)) < 1e-3
+    with pytest.raises(ParameterError, match="no isovalues"):
+        zs.render(BALL, 16, color_by="isovalue")
+    with pytest.raises(ParameterError, match="not a solid"):
+        zs.render(BALL & RING, 16, color_by="gradient")

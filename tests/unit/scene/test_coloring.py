@@ -46,8 +46,9 @@ def test_colorings_that_cannot_be(wrong: dict[str, Any], said: str) -> None:
 
 
 def test_a_scene_looks_at_the_formula() -> None:
+    shells = BALL.with_isovalues((0.0, 0.5))
     for by in (*QUANTITIES, "r*x + w", "atan2(y, x)"):
-        assert zs.Scene(BALL, material=zs.Material(coloring=zs.Coloring(by))).material.coloring is not None
+        assert zs.Scene(shells, material=zs.Material(coloring=zs.Coloring(by))).material.coloring is not None
     with pytest.raises(FormulaError, match="value is missing"):
         zs.Scene(BALL, material=zs.Material(coloring=zs.Coloring("x +")))
 

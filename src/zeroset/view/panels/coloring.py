@@ -14,13 +14,15 @@ from zeroset.view.state import State
 from zeroset.view.widgets import checkbox, choice, label, said
 
 OWN, FORMULA, USUAL = "front and back", "a formula", "the usual"
+OFFERED = tuple(name for name in QUANTITIES if name != "isovalue")
+"""A window shows one surface f = 0."""
 
 
 def draw(state: State, context: Context) -> State:
     """A list to choose from, and what goes with the choice."""
     imgui, before = context.imgui, state.material.coloring
     shown = OWN if before is None else before.by if before.by in QUANTITIES else FORMULA
-    wanted = choice(imgui, "colour by", shown, (OWN, *QUANTITIES, FORMULA))
+    wanted = choice(imgui, "colour by", shown, (OWN, *OFFERED, FORMULA))
     after = before
     if wanted != shown:
         after = None if wanted == OWN else Coloring("z" if wanted == FORMULA else wanted)
