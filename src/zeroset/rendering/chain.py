@@ -121,7 +121,7 @@ class Chain:
 
         def ahead(problem: Problem) -> Answer:
             # A beam has brought its rays close to what they meet; others have to get away from where they begin.
-            return stride(problem if self._step is not None else clipped(problem)[0])
+            return stride(problem if self._step is not None else clipped(problem))
 
         answer = subject.nearest(lambda body: problem_on(body, now.ray, now.start, farthest, self._step), ahead)
         hit = answer.status.ne(MISS)

@@ -20,7 +20,7 @@ from functools import reduce
 from itertools import pairwise
 
 from zeroset.arith import AffineSystem, PolySystem
-from zeroset.kernel import BOOL, U32, Value, constant, while_
+from zeroset.kernel import U32, Value, constant, while_
 from zeroset.solve.problem import Problem
 
 HIGHEST = 6
@@ -42,22 +42,17 @@ def can_clip(problem: Problem) -> bool:
     return degree is not None and 1 <= degree <= HIGHEST
 
 
-def clipped(problem: Problem, wanted: Value | None = None) -> tuple[Problem, Value]:
-    """The problem without a first part that certainly holds no root, and whether nothing is left.
-
-    Args:
-        problem: the ray.
-        wanted: lanes that ask; the others' answer means nothing.
-    """
+def clipped(problem: Problem) -> Problem:
+    """The problem without a first part that certainly holds no root; with nothing left of it where none does."""
     if not can_clip(problem):
-        return problem, constant(False, BOOL)
+        return problem
     length = (problem.t1 - problem.t0).maximum(0.0) * (1.0 + 2.0**-20)
     near = problem.tolerance * NEAR / length.maximum(1e-30)
-    share, none = _free_share(problem, _floor(problem, length), near, wanted)
+    share, none = _free_share(problem, _floor(problem, length), near)
     start = (share * (1.0 - 2.0**-20)).fma(length, problem.t0) - problem.tolerance * NEAR
     # Lanes without a stretch have nothing to be found on either.
     none = none | ~(problem.t1 > problem.t0)
-    return replace(problem, t0=none.select(problem.t1, start.maximum(problem.t0))), none
+    return replace(problem, t0=none.select(problem.t1, start.maximum(problem.t0)))
 
 
 def _floor(problem: Problem, length: Value) -> list[Value]:
@@ -93,14 +88,13 @@ def _largest(values: Sequence[Value]) -> Value:
     return reduce(lambda a, b: a.maximum(b), values)
 
 
-def _free_share(problem: Problem, points: list[Value], near: Value, wanted: Value | None) -> tuple[Value, Value]:
+def _free_share(problem: Problem, points: list[Value], near: Value) -> tuple[Value, Value]:
     """The share of the stretch on which a polynomial is certainly positive from the start, and whether that is all.
 
     Args:
         problem: for its type and format.
         points: control points over the stretch.
         near: the share that is not worth a split.
-        wanted: lanes that ask.
     """
     degree, size = len(points) - 1, _largest([abs(p) for p in points])
     # A split rounds each point by 3 eps of the largest that goes into it, once in each of as many rounds as the degree.
@@ -128,8 +122,6 @@ def _free_share(problem: Problem, points: list[Value], near: Value, wanted: Valu
 
     none = reduce(lambda a, b: a & b, [p > 0.0 for p in points])
     begins = (points[0] > 0.0) & ~none
-    if wanted is not None:
-        begins = begins & wanted
     zero = problem.number(0.0)
     state = while_(running, look, begins, constant(0, U32), zero, problem.number(BEGIN), zero, *points)
     return state[2], none | (state[2] >= 1.0)

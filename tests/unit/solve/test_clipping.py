@@ -41,9 +41,9 @@ def clip(formula: Callable[..., Any] | str, origins: Array, directions: Array) -
         o, d = (tuple(load(builder.buffer(f"{n}{axis}", F32), lane) for axis in "xyz") for n in "od")
         far, tolerance = constant(FAR, F32), constant(TOLERANCE, F32)
         problem = Problem(Lowered(surface.field, builder), Ray(o, d), constant(0.0, F32), far, tolerance, far)
-        ahead, none = clipped(problem)
+        ahead = clipped(problem)
         store(builder.buffer("start", F32, writable=True), lane, ahead.t0)
-        store(builder.buffer("none", U32, writable=True), lane, none.convert(U32))
+        store(builder.buffer("none", U32, writable=True), lane, (ahead.t0 >= far).convert(U32))
     count = len(origins)
     buffers: dict[str, Array] = {"start": np.zeros(count, np.float32), "none": np.zeros(count, np.uint32)}
     buffers |= {f"o{axis}": np.ascontiguousarray(origins[:, i]) for i, axis in enumerate("xyz")}
@@ -113,7 +113,7 @@ def test_what_is_no_polynomial_of_low_degree_is_left_alone() -> None:
             lowered = Lowered(zs.surface(formula, bounds=1).field, builder)
             problem = Problem(lowered, Ray((zero,) * 3, (one,) * 3), zero, one, one, one)
             assert not can_clip(problem)
-            assert clipped(problem)[0] is problem
+            assert clipped(problem) is problem
 
 
 def test_numbers_beyond_all_bounds_let_nothing_pass() -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 
 from zeroset.export.marching.lattice import Lattice
 from zeroset.kernel import F32, U32, Kernel, Type
+from zeroset.rendering.making import Making
 from zeroset.rendering.values import Arrays, parameter_uniforms
 from zeroset.runtime import Device, Program
 from zeroset.scene.bounds import bounds_kind, bounds_uniforms
@@ -36,9 +36,11 @@ class Programs:
         self.capped = capped
         self.type = type_
         self._arrays = Arrays(device)
-        self._coming: dict[str, Future[Program]] = {}
-        self._programs: dict[str, Program] = {}
-        self._builders = self._kernels()
+        self._making = Making(device)
+        kernels = self._kernels()
+        self._usual = [name for name in kernels if name != "rim"]
+        for name, (key, build) in kernels.items():
+            self._making.add(name, key, build)
 
     def _kernels(self) -> dict[str, tuple[str, Callable[[], Kernel]]]:
         """Key and builder of each kernel."""
@@ -93,18 +95,11 @@ class Programs:
 
     def compile(self) -> None:
         """Begin to compile what every mesh needs, two kernels at a time."""
-        pool = ThreadPoolExecutor(2)
-        for name in self._builders:
-            if name != "rim" and name not in self._programs and name not in self._coming:
-                self._coming[name] = pool.submit(self.device.compile_cached, *self._builders[name])
-        pool.shutdown(wait=False)
+        self._making.begin(self._usual, 2)
 
     def program(self, name: str) -> Program:
         """One of the programs; waits for it where it is being compiled."""
-        if name not in self._programs:
-            waiting = self._coming.pop(name, None)
-            self._programs[name] = waiting.result() if waiting else self.device.compile_cached(*self._builders[name])
-        return self._programs[name]
+        return self._making.get(name)
 
     def uniforms(self, lattice: Lattice) -> dict[str, float]:
         """Everything that the kernels read besides buffers."""
