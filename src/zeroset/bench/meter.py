@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from zeroset.kernel import Kernel, Type
-from zeroset.runtime import Device, Program
+from zeroset.runtime import Device, Program, Recipe
 from zeroset.runtime.device import Array, Counted
 
 
@@ -59,6 +59,9 @@ class Meter:
             return build()
 
         return self._timed(lambda: self._device.compile_cached(key, counted, quick))
+
+    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+        """Nothing: what another process makes could not be counted."""
 
     def _count(self) -> None:
         with self._lock:

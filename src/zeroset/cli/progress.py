@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sys
+import threading
 import time
+from collections.abc import Callable
 from types import TracebackType
 from typing import Any
 
@@ -12,10 +14,16 @@ PATIENCE = 0.7
 
 
 class Progress:
-    """A bar on stderr that appears only when the work takes long and somebody is looking."""
+    """A bar on stderr that appears only when the work takes long and somebody is looking.
 
-    def __init__(self, what: str) -> None:
+    Args:
+        what: the work.
+        meanwhile: what else may be done while the work is under way: begun once, when that is first heard.
+    """
+
+    def __init__(self, what: str, meanwhile: Callable[[], None] | None = None) -> None:
         self._what = what
+        self._meanwhile = meanwhile
         self._begin = time.monotonic()
         self._bar: Any = None
         self._task: Any = None
@@ -25,6 +33,9 @@ class Progress:
 
     def __call__(self, share: float) -> None:
         """Tell how much is done, from 0 to 1."""
+        if self._meanwhile is not None:
+            threading.Thread(target=self._meanwhile, daemon=True).start()
+            self._meanwhile = None
         if self._bar is None:
             if not sys.stderr.isatty() or time.monotonic() - self._begin < PATIENCE:
                 return

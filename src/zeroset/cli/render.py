@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -77,6 +76,7 @@ def command(
     import dataclasses
 
     from zeroset.rendering.render import render
+    from zeroset.runtime import twin
 
     path = picture_path(output)
     for extra in (save_scene, save_outputs):
@@ -87,10 +87,9 @@ def command(
     if legend and scene.materials[0].coloring is None:
         raise ParameterError("there is nothing that a legend could explain", hint="try --color-by gaussian-curvature")
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
-    # What writes pictures is loaded while the compiler works, outside Python's lock.
-    threading.Thread(target=_load_formats, daemon=True).start()
+    twin.allow()
     begin = time.perf_counter()
-    with Progress("drawing") as progress:
+    with Progress("drawing", meanwhile=_load_formats) as progress:
         image = render(
             scene,
             read_size(size),

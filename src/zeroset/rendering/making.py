@@ -14,7 +14,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 
 from zeroset.kernel import Kernel
-from zeroset.runtime import Device, Program
+from zeroset.runtime import Device, Program, Recipe
 
 
 class Making:
@@ -43,17 +43,21 @@ class Making:
         """The kernel of a program as it is traced."""
         return self._recipes[name][1]()
 
-    def begin(self, names: Iterable[str], at_once: int, quick: Iterable[str] = ()) -> None:
+    def begin(self, names: Iterable[str], at_once: int, quick: Iterable[str] = (), apart: Iterable[str] = ()) -> None:
         """Begin to make what is neither there nor coming.
 
         Args:
             names: of programs, in the order in which they are traced.
             at_once: how many may be under way.
             quick: those of them that are made in a hurry.
+            apart: those of them that another process may make.
         """
         missing = [name for name in names if name not in self._programs and name not in self._coming]
         hurried = set(quick).intersection(missing)
         self._quick |= hurried
+        elsewhere = [name for name in apart if name in missing]
+        if elsewhere:
+            self._device.begin_apart(Recipe(*self._recipes[name], name in hurried) for name in elsewhere)
         self._coming |= _side_by_side({name: partial(self._made, name, name in hurried) for name in missing}, at_once)
 
     def improve(self) -> None:

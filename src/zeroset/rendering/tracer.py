@@ -154,7 +154,7 @@ class Tracer:
             self._making.begin(wanted, AT_ONCE)
             self._making.improve()
         else:
-            self._making.begin(wanted, AT_ONCE, (*SHORT, *self._shared) if hurry else ())
+            self._making.begin(wanted, AT_ONCE, (*SHORT, *self._shared) if hurry else (), SHORT)
 
     def settle(self) -> None:
         """Wait until everything that was begun is there, and as good as it gets."""

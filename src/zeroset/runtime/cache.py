@@ -94,19 +94,20 @@ class Cache:
 
     def status(self) -> CacheStatus:
         """Whether the cache works, and what it holds."""
-        enabled = self._usable()
+        enabled = self.usable
         files = self._files() if enabled else []
         size = sum(size for _, size, _ in files)
         return CacheStatus(self._folder, enabled, self._reason or self._write_error, len(files), size)
 
     def clear(self) -> None:
         """Delete every file."""
-        if not self._usable():
+        if not self.usable:
             return
         for _, _, path in self._files():
             _unlink(path)
 
-    def _usable(self) -> bool:
+    @property
+    def usable(self) -> bool:
         """Whether the folder is there and nobody else can put code into it; looks once."""
         if self._folder is not None and not self._ready and not self._reason:
             try:
@@ -122,7 +123,7 @@ class Cache:
         return self._folder / f"{hashlib.sha256(key.encode()).hexdigest()[:40]}.{suffix}"
 
     def _read(self, key: str, suffix: str) -> bytes | None:
-        if not self._usable():
+        if not self.usable:
             return None
         path = self._path(key, suffix)
         try:
@@ -138,7 +139,7 @@ class Cache:
         return body
 
     def _write(self, key: str, suffix: str, body: bytes) -> None:
-        if not self._usable():
+        if not self.usable:
             return
         data = _MAGIC + hashlib.sha256(body).digest() + body
         try:

@@ -7,7 +7,7 @@ to 600 instructions they gained no speed and doubled the time to compile.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from zeroset.codegen.target import Target
@@ -16,7 +16,7 @@ from zeroset.kernel.build import Kernel
 from zeroset.runtime import image
 from zeroset.runtime.cache import Cache, default_cache
 from zeroset.runtime.compiled import Compiled
-from zeroset.runtime.device import HostMemory, Signature
+from zeroset.runtime.device import HostMemory, Recipe, Signature
 from zeroset.runtime.pool import Pool, thread_count
 from zeroset.runtime.program import CpuProgram
 from zeroset.runtime.programs import Programs
@@ -74,6 +74,11 @@ class CpuDevice(HostMemory):
     def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> CpuProgram:
         """The program under a key; see ``Device.compile_cached``."""
         return self._programs.under(key, build, quick)
+
+    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+        """Have another process make programs; see ``Device.begin_apart``. One core has no time for two."""
+        if self.threads > 1:
+            self._programs.begin_apart(recipes)
 
     def _write(self, kernel: Kernel) -> str:
         from zeroset.codegen import llvm

@@ -9,9 +9,9 @@ happens in the order it was asked for, but not always at once: a GPU collects it
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -75,6 +75,14 @@ class Counted:
     times: int = 1
 
 
+class Recipe(NamedTuple):
+    """How a program is made: what ``Device.compile_cached`` takes."""
+
+    key: str
+    build: Callable[[], Kernel]
+    quick: bool = False
+
+
 class Program(Protocol):
     """A kernel made ready for one device."""
 
@@ -121,6 +129,13 @@ class Device(Protocol):
         """
         ...
 
+    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+        """Begin to make programs outside this process, where that can be; ``compile_cached`` then waits for them.
+
+        It may do nothing; it must be called before others of the programs are begun in threads.
+        """
+        ...
+
     def supports(self, type_: Type) -> bool:
         """Whether kernels may calculate with a type; all but f64 are everywhere."""
         ...
@@ -163,6 +178,9 @@ class HostMemory:
     """Buffers of devices that share the host's memory: NumPy arrays; their programs run at once."""
 
     largest = 2**40
+
+    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+        """Nothing."""
 
     def supports(self, type_: Type) -> bool:
         """Every type."""

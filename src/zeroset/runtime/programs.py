@@ -6,17 +6,22 @@ threads make the same program the first one stays.
 
 A program may be asked for in a hurry: what it costs to compile then counts more than how fast it runs. Whoever asks so
 is given the good one where it is there already; the quick one is kept under a name of its own.
+
+A twin of this process may make some of them, where there is a disk on which it can leave them.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any, Generic, TypeVar
 
 from zeroset.kernel.build import Kernel
+from zeroset.runtime import twin
 from zeroset.runtime.cache import Cache
 from zeroset.runtime.compiled import Compiled
+from zeroset.runtime.device import Recipe
 
 P = TypeVar("P")
 _QUICK = " quick"
@@ -49,6 +54,7 @@ class Programs(Generic[P]):
         self._translate = translate
         self._place = place
         self._made: dict[str, P] = {}
+        self._twin: twin.Twin | None = None
         self._busy = threading.Lock()
         # A semaphore lets in who came first; a lock lets in anybody.
         self._writing = threading.Semaphore()
@@ -59,15 +65,29 @@ class Programs(Generic[P]):
 
     def under(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> P:
         """The program under a key; ``build`` traces its kernel where no program is known there."""
-        variants = ("", _QUICK) if quick else ("",)
-        for variant in variants:
-            name = f"key {key}{variant}"
+        if self._twin is not None:
+            self._twin.wait(key)
+        for variant in _variants(quick):
+            name = _named(key, variant)
             known = self._known(name) or self._follow(name, variant)
             if known is not None:
                 return self._remember(name, known)
         known, digest = self._of(build, variant)
         self._cache.link(f"{name}|{self._stamp}", digest)
         return self._remember(name, known)
+
+    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+        """Have a twin make what is neither in memory nor on disk, where there can be one; ``under`` waits for it."""
+        if self._twin is not None or not self._cache.usable or not twin.possible():
+            return
+        work = {r.key: partial(self.under, *r) for r in recipes if not self._has(r.key, r.quick)}
+        if work:
+            self._twin = twin.Twin(work)
+
+    def _has(self, key: str, quick: bool) -> bool:
+        """Whether a program is known under a key."""
+        names = [_named(key, variant) for variant in _variants(quick)]
+        return any(self._known(name) or self._cache.follow(f"{name}|{self._stamp}") for name in names)
 
     def _follow(self, name: str, variant: str) -> P | None:
         digest = self._cache.follow(f"{name}|{self._stamp}")
@@ -105,3 +125,12 @@ class Programs(Generic[P]):
             return known
         compiled = self._cache.get(f"{name}|{self._stamp}")
         return None if compiled is None else self._place(compiled)
+
+
+def _variants(quick: bool) -> tuple[str, ...]:
+    """The variants of a program that will do, the best first."""
+    return ("", _QUICK) if quick else ("",)
+
+
+def _named(key: str, variant: str) -> str:
+    return f"key {key}{variant}"

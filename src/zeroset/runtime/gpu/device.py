@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +13,7 @@ from zeroset.kernel.build import Kernel
 from zeroset.kernel.types import F64, U32, Type
 from zeroset.runtime.cache import Cache, default_cache
 from zeroset.runtime.compiled import Compiled
-from zeroset.runtime.device import Array, Counted, Signature
+from zeroset.runtime.device import Array, Counted, Recipe, Signature
 from zeroset.runtime.gpu.adapter import Found, choose, open_device
 from zeroset.runtime.gpu.calls import HEAD, count_kernel, grid, head
 from zeroset.runtime.gpu.faults import Faults
@@ -98,6 +98,9 @@ class GpuDevice:
     def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> GpuProgram:
         """The program under a key; see ``Device.compile_cached``. Drivers know no hurry."""
         return self._programs.under(key, build)
+
+    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+        """Nothing: pipelines belong to this process."""
 
     def _write(self, kernel: Kernel) -> str:
         from zeroset.kernel.passes import optimise
