@@ -8,9 +8,8 @@ to 600 instructions they gained no speed and doubled the time to compile.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from zeroset.codegen.target import Target
 from zeroset.errors import DeviceError
 from zeroset.kernel.build import Kernel
 from zeroset.runtime import image
@@ -21,6 +20,9 @@ from zeroset.runtime.pool import Pool, thread_count
 from zeroset.runtime.program import CpuProgram
 from zeroset.runtime.programs import Programs
 from zeroset.runtime.stamps import cpu_stamp, llvm_stamp, source_stamp
+
+if TYPE_CHECKING:
+    from zeroset.codegen.target import Target
 
 _ENTRY = "drain"
 
