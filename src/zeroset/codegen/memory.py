@@ -1,8 +1,9 @@
 """Loads, stores and atomics of W lanes at once.
 
 A uniform index is one scalar access. The dispatch index itself, or it plus something uniform, is one vector access;
-any other index is a gather or scatter. Whatever the lanes that are not active hold as an index, they touch no memory:
-vector accesses carry the mask. Indices are signed 32-bit, so a buffer holds fewer than 2^31 elements.
+any other index is a gather or scatter. Whatever the lanes that are not active hold as an index, they touch no memory
+that is not the buffer's: vector accesses carry the mask, and a gather reads the first element for them. Indices are
+signed 32-bit, so a buffer holds fewer than 2^31 elements.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ class Memory:
         elif (start := self._contiguous(index)) is not None:
             text = self._masked("load", name, ("ptr", self._start(name, start)))
         else:
-            text = self._masked("gather", name, (f"<{writer.width} x ptr>", self._places(name, index)))
+            text = self._gather(name, index)
         writer.define(result, text)
 
     def store(self, instruction: Instruction) -> None:
@@ -50,6 +51,22 @@ class Memory:
             self._masked("store", name, ("ptr", self._start(name, start)), writer.vector(value))
         else:
             self._masked("scatter", name, (f"<{writer.width} x ptr>", self._places(name, index)), writer.vector(value))
+
+    def _gather(self, name: str, index: Value) -> str:
+        """One load a lane; those that are not active read the first element, which is there if any is.
+
+        Processors gather hardly faster than they load, and a load that must not be done costs a branch in each lane.
+        """
+        writer, type_ = self.writer, self.types[name]
+        vector, pointers = writer.vectors[type_.name], f"<{writer.width} x ptr>"
+        intrinsic = f"llvm.masked.gather.{writer.suffix(type_, True)}.v{writer.width}p0"
+        writer.declarations.add(f"declare {vector} @{intrinsic}({pointers}, {writer.bits_type}, {vector})")
+        lanes = f"<{writer.width} x i32>"
+        safe = writer.choose(writer.mask, index.type, writer.vector(index), "zeroinitializer")
+        places = writer.assign(f"getelementptr {SCALARS[type_.name]}, ptr {self.pointers[name]}, {lanes} {safe}")
+        everywhere = f"{writer.bits_type} splat (i1 true)"
+        aligned = f"{pointers} align {type_.size} {places}"
+        return writer.assign(f"call {vector} @{intrinsic}({aligned}, {everywhere}, {vector} zeroinitializer)")
 
     def _masked(self, what: str, name: str, place: tuple[str, str], value: str | None = None) -> str:
         """One of LLVM's masked intrinsics; a store gives back nothing worth reading."""
