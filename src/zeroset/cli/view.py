@@ -60,6 +60,7 @@ def _find(source: str, params: tuple[str, ...], bounds: str | None) -> tuple[Sce
 
         limits = None if bounds is None else read_bounds(bounds)
         scene = Scene(read(source, dict(map(read_parameter, params)), bounds=limits).surface)
-    text = scene_of(scene)[1] if scene.surface.name or source.endswith(".toml") else source
+    scene, formula = scene_of(scene)
+    text = formula if scene.surface.name or source.endswith(".toml") else source
     # A scene file says what lies behind; a formula or a name leaves it to the window.
     return (scene if source.endswith(".toml") else replace(scene, background=BACKGROUND)), text

@@ -15,11 +15,13 @@ from zeroset.export.marching.programs import Programs
 from zeroset.export.marching.rim import cut_at_rim
 from zeroset.export.marching.roots import BEYOND
 from zeroset.export.marching.weld import Indices, compact, torn, weld
-from zeroset.export.triangles import Mesh, doubled_normals
+from zeroset.export.triangles import Mesh, doubled_normals, joined
 from zeroset.kernel.types import F32, F64, Type
+from zeroset.rendering.frame import part_of
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import Ball
-from zeroset.scene.scene import Scene, as_scene
+from zeroset.scene.plain import plain_surfaces
+from zeroset.scene.scene import Shown, as_scene
 from zeroset.scene.surface import Surface
 
 FEWEST, MOST = 2, 1024
@@ -28,7 +30,7 @@ PRECISIONS = ("auto", "f32", "f64")
 
 
 def mesh(
-    surface: Surface | Scene | str,
+    surface: Shown,
     resolution: int = 128,
     cap: bool = False,
     device: str | Device = "auto",
@@ -37,8 +39,11 @@ def mesh(
 ) -> Mesh:
     """Triangles on a surface, by marching tetrahedra; every vertex is moved to a root of f.
 
+    Of a solid the skin is meshed, as one f; its edges are as sharp as the cells are small. Several surfaces, or
+    isovalues, become one mesh that is not joined where they cross; those of them that are empty are left out.
+
     Args:
-        surface: a Surface, a Scene, or a formula as text.
+        surface: a Surface, a Solid, a sequence of both, a Scene, or a formula as text.
         resolution: cells along the longest side of the bounds. What is smaller than a cell may be lost.
         cap: close the mesh where the bounds cut the surface, as the solid f <= 0 inside them. Otherwise it ends there
             in a clean edge. A surface that is closed inside its bounds gives a watertight mesh either way.
@@ -58,16 +63,33 @@ def mesh(
         (True, 0)
     """
     cells = _resolution(resolution)
-    shown = as_scene(surface).plain("a mesh")
-    shown.check_work()
     target = get_device(device)
     type_ = _precision(precision, target)
-    programs = Programs(shown, target, bool(cap), type_)
-    lattice = make_lattice(shown.fitted, cells, bool(cap))
+    things = plain_surfaces(as_scene(surface).surface)
+    made, nothing = [], None
+    for i, thing in enumerate(things):
+        try:
+            made.append(_meshed(thing, cells, bool(cap), target, type_, part_of(progress, i, len(things))))
+        except BoundsError as error:
+            nothing = error
+    if nothing is not None and not made:
+        raise nothing
+    if progress is not None:
+        progress(1.0)
+    return joined(made)
+
+
+def _meshed(
+    shown: Surface, cells: int, cap: bool, target: Device, type_: Type, progress: Callable[[float], None] | None
+) -> Mesh:
+    """The mesh of one f = 0; raises ``BoundsError`` where there is nothing."""
+    shown.check_work()
+    programs = Programs(shown, target, cap, type_)
+    lattice = make_lattice(shown.fitted, cells, cap)
     if progress is not None:
         progress(0.0)
     pieces = extract(programs, lattice, progress)
-    if torn(pieces, bool(cap)):
+    if torn(pieces, cap):
         pieces = extract(programs, lattice, progress, exclude=False)
     result = _assembled(programs, lattice, pieces)
     if not len(result.faces):

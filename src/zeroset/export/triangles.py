@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -74,6 +75,19 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<zeroset.Mesh {len(self.vertices):,} vertices, {len(self.faces):,} triangles>"
+
+
+def joined(meshes: Sequence[Mesh]) -> Mesh:
+    """Several meshes as one, whose parts share no vertices; one alone as it is."""
+    if len(meshes) == 1:
+        return meshes[0]
+    first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    faces = [mesh.faces + np.uint32(start) for mesh, start in zip(meshes, first[:-1], strict=True)]
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate(faces),
+        np.concatenate([mesh.normals for mesh in meshes]),
+    )
 
 
 def doubled_normals(points: npt.NDArray[np.float32], corners: npt.NDArray[Any]) -> npt.NDArray[np.float64]:

@@ -35,6 +35,12 @@ from zeroset.solve.method import Method
 Progress = Callable[[float], None]
 """Told the share of a frame that is done, from 0 to 1."""
 
+
+def part_of(progress: Progress | None, part: int, parts: int) -> Progress | None:
+    """The progress of one of several parts as progress of the whole."""
+    return None if progress is None else lambda done: progress((part + done) / parts)
+
+
 SLICES = 50
 """Parts that a frame is drawn in where somebody watches its progress."""
 SMALL = 1 << 19

@@ -12,7 +12,7 @@ from zeroset.errors import ParameterError, ZerosetError
 from zeroset.rendering.bands import Assembled, bands, fits
 from zeroset.rendering.bounce import MOST_DEEP
 from zeroset.rendering.drawn import Drawn, as_drawn
-from zeroset.rendering.frame import GBuffer, Progress, frame_for
+from zeroset.rendering.frame import GBuffer, Progress, frame_for, part_of
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import Illumination, Lighting, Smooth, shading_uniforms
@@ -149,7 +149,7 @@ def render(
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
             part = frame_for(shown, chosen, lighting, band.layout, target, draft, tint)
             with part.lock:
-                share = _share(progress, i, len(parts))
+                share = part_of(progress, i, len(parts))
                 outputs.add(band, part.draw(shown, own, thin, share, draft, light, materials, palette))
     return Image((layout.width, layout.height), outputs, chosen.certified, coloring)
 
@@ -163,11 +163,6 @@ def _colored(scene: Scene, coloring: Coloring | None) -> Scene:
         return surface if material is None else surface.with_material(replace(material, coloring=coloring))
 
     return replace(scene, surface=scene.surface.mapped(own), material=material)
-
-
-def _share(progress: Progress | None, part: int, parts: int) -> Progress | None:
-    """The progress of one part as progress of the whole."""
-    return None if progress is None else lambda done: progress((part + done) / parts)
 
 
 def _smaller(layout: Layout, device: Device) -> Layout:

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 from zeroset.errors import ParameterError, ViewError
 from zeroset.runtime import get_device
 from zeroset.scene.camera import Camera
+from zeroset.scene.plain import merged
 from zeroset.scene.scene import Scene
-from zeroset.scene.several import Several, plain_surface
+from zeroset.scene.several import Several, as_drawable, plain_surface
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
 from zeroset.solve.method import Method, resolve_method
@@ -29,7 +30,7 @@ NOTEBOOK_SIZE = (960, 600)
 
 
 def show(
-    source: Surface | Scene | str,
+    source: Surface | Solid | Scene | str,
     size: tuple[int, int] | None = None,
     camera: Camera | None = None,
     method: str | Method = "auto",
@@ -42,7 +43,8 @@ def show(
     In a script it returns when the window is closed. In a notebook it shows a widget and returns at once.
 
     Args:
-        source: a Surface, a Scene, or a formula as text, which may have single letters for parameters.
+        source: a Surface, a Solid (shown as one f), a Scene, or a formula as text, in which single letters may be
+            parameters.
         size: of the window, in logical pixels.
         camera: where to begin; None takes the scene's or the surface's own, or one that fits the bounds.
         method: as for ``render``; it can be changed in the window.
@@ -77,8 +79,8 @@ def start(
     return state if camera is None else replace(state, camera=camera, home=camera)
 
 
-def scene_of(source: Surface | Scene | str) -> tuple[Scene, str]:
-    """The scene that a window opens with, and the text in its formula box.
+def scene_of(source: Surface | Solid | Scene | str) -> tuple[Scene, str]:
+    """The scene that a window opens with, and the text in its formula box. A solid becomes one formula.
 
     Example:
         >>> scene, text = scene_of("x^2 + a*y^2 = 1")
@@ -86,13 +88,17 @@ def scene_of(source: Surface | Scene | str) -> tuple[Scene, str]:
         ({'a': 1.0}, 'x^2 + a*y^2 = 1')
     """
     if isinstance(source, Scene):
+        if isinstance(source.surface, Solid):
+            source = replace(source, surface=merged(source.surface))
         return source, _text(source.plain("the window"))
     if isinstance(source, str):
         from zeroset.view.formula import read
 
         return Scene(read(source, {}).surface, background=BACKGROUND), source
-    if isinstance(source, (Solid, Several)):
-        source = plain_surface(source, "the window")
+    if isinstance(source, Solid):
+        source = merged(source)
+    if isinstance(source, (Several, list, tuple)):
+        source = plain_surface(as_drawable(source), "the window")
     if not isinstance(source, Surface):
         source = surface(source)
     return Scene(source, background=BACKGROUND), _text(source)

@@ -61,7 +61,6 @@ def test_solids_and_several_from_files(zeroset: Run, files: Path) -> None:
         (("render", "solid.toml", "-p", "q=1"), "no surface has a parameter 'q'"),
         (("render", "solid.toml", "--isovalues", "1"), "--isovalues takes one surface f = 0, not a solid"),
         (("render", "solid.toml", "-m", "mitchell"), "mitchell cannot treat solids"),
-        (("mesh", "several.toml", "-o", "a.stl"), "a mesh takes one surface f = 0, not several surfaces"),
     ],
 )
 def test_what_cannot_be(arguments: tuple[str, ...], said: str, zeroset: Run, files: Path) -> None:
@@ -69,6 +68,14 @@ def test_what_cannot_be(arguments: tuple[str, ...], said: str, zeroset: Run, fil
     assert ran.status == 2
     assert said in ran.err
     assert "Traceback" not in ran.err
+
+
+def test_they_are_meshed(zeroset: Run, files: Path) -> None:
+    for name, closed in (("solid", "watertight"), ("several", "open")):
+        ran = zeroset("mesh", f"{name}.toml", "-o", f"{name}.stl", "-r", "24")
+        assert ran.status == 0, ran.err
+        assert closed in ran.out
+        assert (files / f"{name}.stl").stat().st_size > 1000
 
 
 def test_they_are_explained(zeroset: Run, files: Path) -> None:

@@ -344,3 +344,27 @@ def test_kinks_multiple_roots_and_lattice_planes_are_closed_too(text: str, bound
     limits = surface.fitted
     if isinstance(limits, zs.Ball):
         assert np.linalg.norm(opened.vertices - limits.center, axis=1).max() < limits.radius * (1 + 1e-6)
+
+
+def test_the_skin_of_a_solid_is_meshed() -> None:
+    """A ball with a square hole through it: closed, and as large as it must be."""
+    big, thin = zs.surface("x^2 + y^2 + z^2 = 1", bounds=1.5), zs.surface("max(|x|, |y|) = 0.3")
+    made = zs.mesh((big - thin).with_bounds(1.5), resolution=96, device="cpu")
+    assert made.watertight
+    side = np.linspace(-0.3, 0.3, 201)[:-1] + 0.0015
+    x, y = np.meshgrid(side, side)
+    hole = float((2 * np.sqrt(1 - x * x - y * y)).mean() * 0.36)
+    assert made.volume == pytest.approx(4 / 3 * math.pi - hole, rel=2e-3)
+
+
+def test_several_and_isovalues_are_one_mesh() -> None:
+    shells = zs.surface("x^2 + y^2 + z^2", bounds=2.0).with_isovalues((0.25, 1.0, 100.0))
+    other = zs.surface("(x - 3)^2 + y^2 + z^2 = 0.25", bounds=zs.Ball(1.0, (3.0, 0.0, 0.0)))
+    heard: list[float] = []
+    made = zs.mesh([shells, other], resolution=48, device="cpu", progress=heard.append)
+    assert made.watertight
+    assert made.volume == pytest.approx(4 / 3 * math.pi * (0.125 + 1 + 0.125), rel=0.01)
+    assert heard == sorted(heard)
+    assert heard[-1] == 1.0
+    with pytest.raises(BoundsError, match="nothing to mesh"):
+        zs.mesh(shells.with_isovalues((100.0, 200.0)), resolution=8, device="cpu")

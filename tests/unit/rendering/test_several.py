@@ -170,8 +170,6 @@ def test_what_cannot_be_drawn_together() -> None:
         zs.Scene([BALL, "x"])  # type: ignore[list-item]
     with pytest.raises(ParameterError, match="at most 32"):
         zs.Scene([ball(i, 0, 0) for i in range(33)])
-    with pytest.raises(ParameterError, match="a mesh takes one surface"):
-        zs.mesh([BALL, BALL])  # type: ignore[arg-type]
 
 
 def test_a_small_thing_on_a_large_ground_is_found_as_closely_as_alone() -> None:

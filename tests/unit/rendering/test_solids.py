@@ -7,7 +7,7 @@ import pytest
 from tests.gpus import needs_gpu
 
 import zeroset as zs
-from zeroset.errors import MethodError, ParameterError
+from zeroset.errors import MethodError
 from zeroset.rendering.drawn import as_drawn
 
 DEVICES = ["cpu", pytest.param("gpu", marks=needs_gpu)]
@@ -131,13 +131,6 @@ def test_methods_that_cannot_say_which_can(method: str) -> None:
     with pytest.raises(MethodError, match="solids") as caught:
         zs.render(A - B, 16, method=method)
     assert "'auto'" in str(caught.value.hints)
-
-
-def test_what_takes_no_solid_says_so() -> None:
-    with pytest.raises(ParameterError, match="a mesh takes one surface f = 0, not a solid"):
-        zs.mesh(A - B)  # type: ignore[arg-type]
-    with pytest.raises(ParameterError, match="the window takes one surface"):
-        zs.show(A - B)  # type: ignore[arg-type]
 
 
 def test_thin_parts_of_solids_and_isovalues_are_drawn() -> None:

@@ -31,6 +31,16 @@ def test_text_surface_or_scene() -> None:
     assert scene_of(own)[0] is own
 
 
+def test_a_solid_is_shown_as_one_formula() -> None:
+    ball, rod = zs.surface("x^2 + y^2 + z^2 = r^2", {"r": 1.0}), zs.surface("x^2 + y^2 = 0.1")
+    for source in (ball - rod, zs.Scene(ball - rod)):
+        scene, text = scene_of(source)
+        assert isinstance(scene.surface, zs.Surface)
+        assert text == scene.surface.formula == "max(x^2 + y^2 + z^2 - r^2, 0.1 - (x^2 + y^2))"
+    with pytest.raises(ParameterError, match="the window takes one surface f = 0, not several surfaces"):
+        scene_of([ball, rod])
+
+
 def test_a_changed_gallery_surface_shows_its_own_formula() -> None:
     changed = zs.surface("x = y", name="ding-dong")
     assert scene_of(changed)[1] == changed.formula
