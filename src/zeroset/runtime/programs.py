@@ -12,8 +12,10 @@ A twin of this process may make some of them, where there is a disk on which it 
 
 from __future__ import annotations
 
+import contextlib
+import gc
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import Any, Generic, TypeVar
 
@@ -95,7 +97,7 @@ class Programs(Generic[P]):
 
     def _of(self, build: Callable[[], Kernel], variant: str) -> tuple[P, str]:
         """The program of the kernel that ``build`` traces, and the kernel's digest."""
-        with self._writing:
+        with self._writing, _collecting_later():
             kernel = build()
             name = kernel.digest + variant
             known = self._recall(name)
@@ -125,6 +127,19 @@ class Programs(Generic[P]):
             return known
         compiled = self._cache.get(f"{name}|{self._stamp}")
         return None if compiled is None else self._place(compiled)
+
+
+@contextlib.contextmanager
+def _collecting_later() -> Iterator[None]:
+    """No search for garbage in here: a kernel is ten thousands of objects, all in use, and every so many start a search."""
+    wanted = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        # Of several threads in here, each with a device of its own, those that found it enabled enable it again.
+        if wanted:
+            gc.enable()
 
 
 def _variants(quick: bool) -> tuple[str, ...]:

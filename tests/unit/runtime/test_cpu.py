@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import subprocess
@@ -281,3 +282,20 @@ def test_one_kernel_is_traced_at_a_time() -> None:
     for thread in threads:
         thread.join()
     assert most == [1]
+
+
+def test_no_garbage_is_collected_while_a_kernel_is_traced() -> None:
+    seen = []
+
+    def build() -> Kernel:
+        seen.append(gc.isenabled())
+        return scale()
+
+    assert gc.isenabled()
+    device = CpuDevice(cache=Cache(None))
+    device.compile_cached("halving", build)
+    assert gc.isenabled()
+    with pytest.raises(ZeroDivisionError):
+        device.compile_cached("broken", lambda: 1 // 0)  # type: ignore[arg-type, return-value]
+    assert gc.isenabled()
+    assert seen == [False]
