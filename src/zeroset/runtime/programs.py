@@ -131,7 +131,7 @@ class Programs(Generic[P]):
 
 @contextlib.contextmanager
 def _collecting_later() -> Iterator[None]:
-    """No search for garbage in here: a kernel is ten thousands of objects, all in use, and every so many start a search."""
+    """No search for garbage in here: a kernel is ten thousands of objects, all in use, which would start many."""
     wanted = gc.isenabled()
     gc.disable()
     try:
