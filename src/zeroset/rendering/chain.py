@@ -71,10 +71,12 @@ class Chain:
         self._step = step if response.optics.plain else None
         self._response = response
         self._measure = measure
+        self.measures = measure is not None
+        self.ends = response.optics.ends
         self._place = place
         self._builder = response.builder
         self._branches = response.optics.branches
-        self._parts = response.subject.shape.parts > 1
+        self.parts = response.subject.shape.parts > 1
 
     def color(self, first: Traveller, found: Found | None, wanted: Value) -> tuple[Value, ...]:
         """What a ray sees.
@@ -126,13 +128,13 @@ class Chain:
         answer = subject.nearest(lambda body: problem_on(body, now.ray, now.start, farthest, self._step), ahead)
         hit = answer.status.ne(MISS)
         zero = constant(0.0, F32)
-        nothing = (zero, zero, zero, *([constant(0, U32)] if self._parts else []))
+        nothing = (zero, zero, zero, *([constant(0, U32)] if self.parts else []))
         met = if_(hit, lambda: meet(subject, now.ray, answer), lambda: nothing)
         value = None
         if self._measure is not None:
             measure, place = self._measure, Met(now.ray, answer.t, answer.steps)
             (value,) = if_(hit, lambda: (measure.at(place),), lambda: (zero,))
-        return Found(hit, answer.t, met[:3], answer.clear, behind(answer), met[3] if self._parts else None, value)
+        return Found(hit, answer.t, met[:3], answer.clear, behind(answer), met[3] if self.parts else None, value)
 
     def _flat(self, found: Found) -> Values:
         more = [v for v in (found.part, found.value) if v is not None]
@@ -140,7 +142,7 @@ class Chain:
 
     def _found(self, values: Sequence[Value]) -> Found:
         hit, t, x, y, z, clear, end, *rest = values
-        part = rest.pop(0) if self._parts else None
+        part = rest.pop(0) if self.parts else None
         return Found(hit, t, (x, y, z), clear, end, part, rest.pop(0) if rest else None)
 
     # ------------------------------------------------------------ answering

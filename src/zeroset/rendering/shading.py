@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from zeroset.rendering.buffers import CLEAR, END, Ends
 from zeroset.rendering.materials import material_numbers
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Rays
@@ -59,6 +60,12 @@ class Optics:
     def plain(self) -> bool:
         """Whether the first hit is all but at edges: then pixels are shaded as in any other frame."""
         return not (self.through or self.mirror or self.sky)
+
+    @property
+    def ends(self) -> Ends:
+        """What rays that go on need to know: where one that turns back, and where one that goes through may start."""
+        back = (CLEAR,) if self.mirror or self.bends else ()
+        return (*back, END) if self.through else back
 
     @classmethod
     def of(cls, scene: Scene, smooth: Smooth) -> Optics | None:
