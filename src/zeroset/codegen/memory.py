@@ -7,7 +7,7 @@ vector accesses carry the mask. Indices are signed 32-bit, so a buffer holds few
 
 from __future__ import annotations
 
-from zeroset.codegen.writer import SCALARS, Writer
+from zeroset.codegen.writer import SCALARS, Writer, is_constant, literal_text
 from zeroset.kernel.types import Buffer
 from zeroset.kernel.value import Instruction, Value
 
@@ -37,6 +37,8 @@ class Memory:
             text = writer.assign(f"load {SCALARS[type_.name]}, ptr {self._place(name, index)}, align {type_.size}")
         elif (start := self._contiguous(index)) is not None:
             text = self._masked("load", name, ("ptr", self._start(name, start)))
+        elif (shared := self._shared(index)) is not None:
+            text = self._load_shared(name, index, shared)
         else:
             text = self._masked("gather", name, (f"<{writer.width} x ptr>", self._places(name, index)))
         writer.define(result, text)
@@ -50,6 +52,41 @@ class Memory:
             self._store_row(name, self._start(name, start), writer.vector(value))
         else:
             self._masked("scatter", name, (f"<{writer.width} x ptr>", self._places(name, index)), writer.vector(value))
+
+    def _shared(self, index: Value) -> tuple[str, str] | None:
+        """The first and the last lane's index where lanes in a row share one each 2^k, no fewer than there are lanes:
+        mostly it is the same for all of them."""
+        definition = index.definition
+        if definition is None or definition.op != "shr" or index.type.kind != "u":
+            return None
+        row, by = definition.operands
+        if by.definition is None or not is_constant(by):
+            return None
+        writer, shift = self.writer, literal_text(by.definition)
+        start = self._contiguous(row) if writer.width <= 1 << int(shift) else None
+        if start is None:
+            return None
+        end = writer.assign(f"add i32 {start}, {writer.width - 1}")
+        return writer.assign(f"lshr i32 {start}, {shift}"), writer.assign(f"lshr i32 {end}, {shift}")
+
+    def _load_shared(self, name: str, index: Value, ends: tuple[str, str]) -> str:
+        """One load for all lanes where they share the index, else a gather."""
+        writer, type_ = self.writer, self.types[name]
+        vector, scalar = writer.vectors[type_.name], SCALARS[type_.name]
+        one, each, done = (writer.fresh(label) for label in ("one", "each", "done"))
+        writer.branch(writer.assign(f"icmp eq i32 {ends[0]}, {ends[1]}"), one, each)
+        writer.label(one)
+        # Some lane is active where code runs, and its place is in range.
+        number = writer.assign(f"load {scalar}, ptr {self._start(name, ends[0])}, align {type_.size}")
+        first = writer.assign(f"insertelement {vector} poison, {scalar} {number}, i64 0")
+        lanes = f"<{writer.width} x i32>"
+        all_ = writer.assign(f"shufflevector {vector} {first}, {vector} poison, {lanes} zeroinitializer")
+        writer.jump(done)
+        writer.label(each)
+        gathered = self._masked("gather", name, (f"<{writer.width} x ptr>", self._places(name, index)))
+        writer.jump(done)
+        writer.label(done)
+        return writer.assign(f"phi {vector} [ {all_}, %{one} ], [ {gathered}, %{each} ]")
 
     def _store_row(self, name: str, place: str, value: str) -> None:
         """Store to places in a row; all lanes at once where all are active, for a masked store takes ten times as long

@@ -1,8 +1,10 @@
-"""Shadows: one search a lit point and light, from the light to the point (SN10 section 5.2, K09 section 6.2).
+"""Shadows: one search a lit point and light (SN10 section 5.2, K09 section 6.2).
 
-The search comes from the light, so nothing has to be moved off the surface by hand: it ends a little before the point,
-and the first thing that it meets on the way is in the light's path. Finding that there is something is all that is
-wanted, so the tolerance may be far coarser than the picture's. A point is lit where the way is proven to be free.
+Along polynomials of low degree the ray from the point to the light is looked over first (``solve.clipping``): mostly
+that shows at once that it is free, or that f has the other sign somewhere on it, which is as good as a root. What is
+left of it, and rays through other formulas, from the light to the point, are searched. Nothing has to be moved off the
+surface by hand: rays keep off the point by some tolerances, and finding that there is something is all that is wanted,
+so the tolerance may be far coarser than the picture's. A point is lit where the way is proven to be free.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
 CLEAR = 2.0
-"""Tolerances before the point at which the search ends."""
+"""Tolerances around the point that are not searched."""
 
 
 def shadow_kernel(shape: Shape, offset: bool) -> Kernel:
