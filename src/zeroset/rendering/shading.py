@@ -38,6 +38,7 @@ class Optics:
     Attributes:
         through: whether light passes through surfaces.
         bends: whether it is bent there.
+        backed: whether some surfaces are seen through only where another one lies behind.
         mirror: whether surfaces mirror.
         sky: whether the surroundings are a cube map.
         smooth: whether some pixels have many rays.
@@ -46,6 +47,7 @@ class Optics:
 
     through: bool
     bends: bool
+    backed: bool
     mirror: bool
     sky: bool
     shadows: bool
@@ -78,6 +80,7 @@ class Optics:
         return cls(
             through,
             any(m.opacity < 1 and m.ior != 1 for m in materials),
+            any(m.opacity < 1 and m.last_solid for m in materials),
             mirror,
             scene.environment is not None,
             scene.shadows,
