@@ -35,6 +35,19 @@ def test_neighbours(agree: Callable[..., object], shift: int) -> None:
     agree(k.kernel, 77, data, {"shift": shift, "first": 3})
 
 
+@pytest.mark.parametrize("shift", [1, 3, 4, 6])
+@pytest.mark.parametrize("first", [0, 5, 64])
+def test_many_lanes_share_an_element(agree: Callable[..., object], shift: int, first: int) -> None:
+    """Lanes in a row may load one element each 2^k, and begin in the middle of such a run."""
+    with KernelBuilder("shared") as k:
+        source, out, i = k.buffer("source", F32), k.buffer("out", F32, writable=True), k.index()
+        lane = i + k.uniform("first", U32)
+        (value,) = if_((i & 3).ne(1), lambda: load(source, lane >> shift) + 1.0, lambda: constant(-1.0, F32))
+        store(out, i, value)
+    data = {"source": np.arange((77 + first >> shift) + 1, dtype=np.float32), "out": np.zeros(77, np.float32)}
+    agree(k.kernel, 77, data, {"first": first})
+
+
 def test_an_index_through_floats_is_no_index(agree: Callable[..., object]) -> None:
     with KernelBuilder("floats") as k:
         source, out, i = k.buffer("source", F32), k.buffer("out", F32, writable=True), k.index()

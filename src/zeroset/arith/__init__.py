@@ -11,6 +11,7 @@ from zeroset.arith.dual import Dual, DualSystem
 from zeroset.arith.flags import Flags
 from zeroset.arith.format import F32, F64, Format
 from zeroset.arith.interval import Interval, IntervalSystem
+from zeroset.arith.majorant import Majorant, MajorantSystem
 from zeroset.arith.number import Condition, Number, System
 from zeroset.arith.poly import NotPolynomialError, Poly, PolySystem
 from zeroset.arith.real import Real, RealSystem
@@ -28,6 +29,8 @@ __all__ = [
     "Format",
     "Interval",
     "IntervalSystem",
+    "Majorant",
+    "MajorantSystem",
     "NotPolynomialError",
     "Number",
     "Poly",

@@ -21,6 +21,7 @@ OPTIONS = (
     click.option("--shadows", is_flag=True, help="Lights throw shadows."),
     click.option("--environment", metavar="sky|room|FILE", help="What is seen all around. Six FILEs: sky_{face}.png"),
     click.option("--opacity", type=float, help="1 for solid; below, what lies behind is seen through it."),
+    click.option("--last-solid", is_flag=True, help="Seen through only where another surface lies behind."),
     click.option("--reflectance", type=float, help="Share of the light that is mirrored, 0 to 1."),
     click.option("--ior", type=float, help="Index of refraction of the inside; with an opacity below 1."),
     click.option(
@@ -43,6 +44,8 @@ def look_options(function: F) -> F:
 def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
     """The scene with what the options say; what they leave out stays as it is."""
     changes = {name: look[name] for name in MATERIAL if look[name] is not None}
+    if look["last_solid"]:
+        changes["last_solid"] = True
     coloring = _coloring(scene.material.coloring, look)
     material = dataclasses.replace(scene.material, coloring=coloring, **changes)
 

@@ -8,7 +8,7 @@ signed 32-bit, so a buffer holds fewer than 2^31 elements.
 
 from __future__ import annotations
 
-from zeroset.codegen.writer import SCALARS, Writer
+from zeroset.codegen.writer import SCALARS, Writer, is_constant, literal_text
 from zeroset.kernel.types import Buffer
 from zeroset.kernel.value import Instruction, Value
 
@@ -38,6 +38,8 @@ class Memory:
             text = writer.assign(f"load {SCALARS[type_.name]}, ptr {self._place(name, index)}, align {type_.size}")
         elif (start := self._contiguous(index)) is not None:
             text = self._masked("load", name, ("ptr", self._start(name, start)))
+        elif (shared := self._shared(index)) is not None:
+            text = self._load_shared(name, index, shared)
         else:
             text = self._gather(name, index)
         writer.define(result, text)
@@ -48,7 +50,7 @@ class Memory:
         index, value = instruction.operands
         start = self._contiguous(index)
         if start is not None:
-            self._masked("store", name, ("ptr", self._start(name, start)), writer.vector(value))
+            self._store_row(name, self._start(name, start), writer.vector(value))
         else:
             self._masked("scatter", name, (f"<{writer.width} x ptr>", self._places(name, index)), writer.vector(value))
 
@@ -67,6 +69,56 @@ class Memory:
         everywhere = f"{writer.bits_type} splat (i1 true)"
         aligned = f"{pointers} align {type_.size} {places}"
         return writer.assign(f"call {vector} @{intrinsic}({aligned}, {everywhere}, {vector} zeroinitializer)")
+
+    def _shared(self, index: Value) -> tuple[str, str] | None:
+        """The first and the last lane's index where lanes in a row share one each 2^k, no fewer than there are lanes:
+        mostly it is the same for all of them."""
+        definition = index.definition
+        if definition is None or definition.op != "shr" or index.type.kind != "u":
+            return None
+        row, by = definition.operands
+        if by.definition is None or not is_constant(by):
+            return None
+        writer, shift = self.writer, literal_text(by.definition)
+        start = self._contiguous(row) if writer.width <= 1 << int(shift) else None
+        if start is None:
+            return None
+        end = writer.assign(f"add i32 {start}, {writer.width - 1}")
+        return writer.assign(f"lshr i32 {start}, {shift}"), writer.assign(f"lshr i32 {end}, {shift}")
+
+    def _load_shared(self, name: str, index: Value, ends: tuple[str, str]) -> str:
+        """One load for all lanes where they share the index, else a gather."""
+        writer, type_ = self.writer, self.types[name]
+        vector, scalar = writer.vectors[type_.name], SCALARS[type_.name]
+        one, each, done = (writer.fresh(label) for label in ("one", "each", "done"))
+        writer.branch(writer.assign(f"icmp eq i32 {ends[0]}, {ends[1]}"), one, each)
+        writer.label(one)
+        # Some lane is active where code runs, and its place is in range.
+        number = writer.assign(f"load {scalar}, ptr {self._start(name, ends[0])}, align {type_.size}")
+        first = writer.assign(f"insertelement {vector} poison, {scalar} {number}, i64 0")
+        lanes = f"<{writer.width} x i32>"
+        all_ = writer.assign(f"shufflevector {vector} {first}, {vector} poison, {lanes} zeroinitializer")
+        writer.jump(done)
+        writer.label(each)
+        gathered = self._gather(name, index)
+        writer.jump(done)
+        writer.label(done)
+        return writer.assign(f"phi {vector} [ {all_}, %{one} ], [ {gathered}, %{each} ]")
+
+    def _store_row(self, name: str, place: str, value: str) -> None:
+        """Store to places in a row; all lanes at once where all are active, for a masked store takes ten times as long
+        on some CPUs."""
+        writer, type_ = self.writer, self.types[name]
+        every = writer.every(writer.mask)
+        whole, part, done = (writer.fresh(label) for label in ("whole", "part", "done"))
+        writer.branch(every, whole, part)
+        writer.label(whole)
+        writer.line(f"store {writer.vectors[type_.name]} {value}, ptr {place}, align {type_.size}")
+        writer.jump(done)
+        writer.label(part)
+        self._masked("store", name, ("ptr", place), value)
+        writer.jump(done)
+        writer.label(done)
 
     def _masked(self, what: str, name: str, place: tuple[str, str], value: str | None = None) -> str:
         """One of LLVM's masked intrinsics; a store gives back nothing worth reading."""

@@ -209,6 +209,11 @@ class Writer:
         bits = self.bits(mask)
         return self.call(f"llvm.vector.reduce.or.v{self.width}i1", "i1", (self.bits_type, bits))
 
+    def every(self, mask: str) -> str:
+        """Whether all lanes are in the mask, an i1."""
+        bits = self.bits(mask)
+        return self.call(f"llvm.vector.reduce.and.v{self.width}i1", "i1", (self.bits_type, bits))
+
     def choose(self, mask: str, type_: Type, a: str, b: str) -> str:
         """Lanes of ``a`` where the mask has them, else of ``b``."""
         if a == b:

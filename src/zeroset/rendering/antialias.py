@@ -8,11 +8,15 @@ that are drawn because something thinner than a pixel lies in them keep their co
 
 from __future__ import annotations
 
-from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, if_, load, store
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+
+from zeroset.kernel import F32, U32, Buffer, Kernel, KernelBuilder, Value, atomic, constant, if_, load, store
 from zeroset.rendering.buffers import COUNTERS, EDGES, NORMAL, PART
-from zeroset.rendering.layout import frame_coordinates, lane_at, pixel_place, tile_of
+from zeroset.rendering.layout import Beside, pixel_coordinates, pixel_place, tile_of
 from zeroset.rendering.primary import EMPTY_TILE
-from zeroset.rendering.view import pixel_ray
+from zeroset.rendering.view import pixel_ray, vector
 from zeroset.shade.reflectance import dot
 from zeroset.solve.status import MISS, UNRESOLVED
 
@@ -20,29 +24,51 @@ CREASE = 0.92
 """Cosine between the normals of neighbours below which there is a crease."""
 STEP = 0.75
 """Pixels' widths by which a neighbour's point may lie off the tangent plane."""
+STEPS = ("right_origin", "right"), ("up_origin", "up")
+"""What a ray's origin and direction change by in the frame: along a row, and from row to row."""
 
 
 class _Point:
-    """What a pixel shows."""
+    """What a pixel shows: the buffers' values for it, in their order."""
 
-    def __init__(self, builder: KernelBuilder, column: Value, row: Value, parts: bool) -> None:
-        lane = lane_at(builder, column, row)
-        u, v = frame_coordinates(builder, column.convert(F32) + 0.5, row.convert(F32) + 0.5)
-        ray = pixel_ray(builder, u, v)
-        t = load(builder.buffer("t", F32), lane)
-        self.hit = load(builder.buffer("status", U32), lane).ne(MISS)
-        self.place = [t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
-        self.normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
-        self.part = load(builder.buffer(PART, U32), lane) if parts else None
+    def __init__(self, values: Sequence[Value]) -> None:
+        status, self.t, *rest = values
+        self.hit = status.ne(MISS)
+        self.normal = rest[:3]
+        self.part = rest[3] if len(rest) > 3 else None
 
-    def differs(self, other: _Point, pixel: Value) -> Value:
-        """Whether there is an edge between two pixels."""
-        across = [a - b for a, b in zip(other.place, self.place, strict=True)]
-        off = abs(dot(across, self.normal)).maximum(abs(dot(across, other.normal)))
-        crease = dot(self.normal, other.normal) < CREASE
-        if self.part is not None and other.part is not None:
-            crease = crease | self.part.ne(other.part)
-        return (self.hit ^ other.hit) | (self.hit & other.hit & (crease | (off > pixel * STEP)))
+
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """What a kernel's lane looks at: its pixel, and what lies around."""
+
+    builder: KernelBuilder
+    lane: Value
+    column: Value
+    row: Value
+    buffers: Sequence[Buffer]
+
+    def at_edge(self) -> Value:
+        """Whether there is an edge between the pixel and any of its neighbours."""
+        here = _Point([load(buffer, self.lane) for buffer in self.buffers])
+        ray = pixel_ray(self.builder, *pixel_coordinates(self.builder, self.lane))
+        edges = [self._edge(here, ray.direction, rows, onward) for rows in (False, True) for onward in (True, False)]
+        return reduce(lambda a, b: a | b, edges)
+
+    def _edge(self, here: _Point, direction: Sequence[Value], rows: bool, onward: bool) -> Value:
+        place = Beside.of(self.builder, self.lane, self.row if rows else self.column, rows, onward)
+        other = _Point(place.load(self.buffers))
+        # From one pixel to the next, rays differ by the same vectors all over the frame.
+        step = self.builder.uniform("pixel", F32) * (1.0 if rows ^ onward else -1.0)
+        moved, turned = ([v * step for v in vector(self.builder, name)] for name in STEPS[rows])
+        far = other.t - here.t
+        across = [other.t.fma(turn, far.fma(d, move)) for turn, d, move in zip(turned, direction, moved, strict=True)]
+        off = abs(dot(across, here.normal)).maximum(abs(dot(across, other.normal)))
+        crease = dot(here.normal, other.normal) < CREASE
+        if here.part is not None and other.part is not None:
+            crease = crease | here.part.ne(other.part)
+        apart = crease | (off > self.builder.uniform("world_pixel", F32) * STEP)
+        return place.exists & ((here.hit ^ other.hit) | (here.hit & other.hit & apart))
 
 
 def edge_kernel(beams: bool, parts: bool = False) -> Kernel:
@@ -64,7 +90,9 @@ def edge_kernel(beams: bool, parts: bool = False) -> Kernel:
         start = load(builder.buffer("tile_start", F32), tile_of(lane)) if beams else constant(0.0, F32)
 
         def look() -> None:
-            edge = everywhere | _at_edge(builder, column, row, width, height, parts)
+            names = {"status": U32, "t": F32, **dict.fromkeys(NORMAL, F32), **({PART: U32} if parts else {})}
+            buffers = [builder.buffer(name, type_) for name, type_ in names.items()]
+            edge = everywhere | _Look(builder, lane, column, row, buffers).at_edge()
             if_(edge, lambda: _list(builder, lane))
 
         if_(inside & ~thin & (start < EMPTY_TILE), look)
@@ -74,18 +102,3 @@ def edge_kernel(beams: bool, parts: bool = False) -> Kernel:
 def _list(builder: KernelBuilder, lane: Value) -> None:
     slot = atomic("add", builder.buffer(COUNTERS, U32, writable=True), 0, 1)
     store(builder.buffer(EDGES, U32, writable=True), slot, lane)
-
-
-def _at_edge(builder: KernelBuilder, column: Value, row: Value, width: Value, height: Value, parts: bool) -> Value:
-    pixel = builder.uniform("world_pixel", F32)
-    last_column, last_row = width - 1, height - 1
-    here = _Point(builder, column.minimum(last_column), row.minimum(last_row), parts)
-    edge: Value | None = None
-    for right, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        # A pixel at the frame's border is its own neighbour.
-        beside = (column + 1).minimum(last_column) if right > 0 else column.maximum(1) - 1 if right < 0 else column
-        below = (row + 1).minimum(last_row) if down > 0 else row.maximum(1) - 1 if down < 0 else row
-        other = here.differs(_Point(builder, beside.minimum(last_column), below.minimum(last_row), parts), pixel)
-        edge = other if edge is None else edge | other
-    assert edge is not None
-    return edge

@@ -20,8 +20,10 @@ THIN = {"block_missed": U32, "block_reach": F32, "thin_block": U32, "thin_pixel"
 is that may be thinner than a pixel. Then the lists of blocks and of pixels that may hold such a thing."""
 COUNTERS = "counters"
 """How long the lists are: the second look's, the blocks' and the pixels' with thin parts."""
-END = ("clear", "end")
+CLEAR, END = "clear", "end"
 """Up to where a ray met nothing, and where what it met is behind it; for frames whose rays go on."""
+Ends = tuple[str, ...]
+"""Which of these two a frame has."""
 STACK = "stack"
 """Rays that wait for their turn, of each lane its own."""
 STACK_WORDS = 9

@@ -71,10 +71,12 @@ class Chain:
         self._step = step if response.optics.plain else None
         self._response = response
         self._measure = measure
+        self.measures = measure is not None
+        self.ends = response.optics.ends
         self._place = place
         self._builder = response.builder
         self._branches = response.optics.branches
-        self._parts = response.subject.shape.parts > 1
+        self.parts = response.subject.shape.parts > 1
 
     def color(self, first: Traveller, found: Found | None, wanted: Value) -> tuple[Value, ...]:
         """What a ray sees.
@@ -93,24 +95,25 @@ class Chain:
         def turn(going: Value, *state: Value) -> Values:
             return self._turn(state, len(known))
 
-        # Whether the ray must still be searched for; colours; how many rays wait; the ray; what it has met.
-        start = (constant(found is None, BOOL), zero, zero, zero, none, *first.flat(), *known)
+        # Whether the ray must still be searched for; colours; how many rays wait; the ray; what is seen where it meets
+        # nothing, if not the surroundings; what it has met.
+        start = (constant(found is None, BOOL), zero, zero, zero, none, *first.flat(), *self._no_backing(), *known)
         state = while_(running, turn, wanted, *start)
         return tuple(state[2:5])
 
     def _turn(self, state: Values, known: int) -> Values:
         fresh, r, g, b, waiting = state[:5]
         now = Traveller.of(state[5 : 5 + SIZE])
+        backing, given = state[5 + SIZE : len(state) - known], state[len(state) - known :]
         if known:
-            given = state[5 + SIZE :]
             found = self._found(if_(fresh, lambda: self._flat(self._search(now)), lambda: given))
         else:
             found = self._search(now)
-        answer = if_(found.hit, lambda: self._meet(now, found, waiting), lambda: self._miss(now, waiting))
+        answer = if_(found.hit, lambda: self._meet(now, found, waiting), lambda: self._miss(now, waiting, backing))
         going, added, waiting, onward = answer[0], answer[1:4], answer[4], answer[5:]
         going, waiting, onward = self._next(going, waiting, onward)
         color = (r + added[0], g + added[1], b + added[2])
-        return going, constant(True, BOOL), *color, waiting, *onward, *(state[5 + SIZE :] if known else ())
+        return going, constant(True, BOOL), *color, waiting, *onward, *given
 
     # ------------------------------------------------------------ searching
 
@@ -126,13 +129,13 @@ class Chain:
         answer = subject.nearest(lambda body: problem_on(body, now.ray, now.start, farthest, self._step), ahead)
         hit = answer.status.ne(MISS)
         zero = constant(0.0, F32)
-        nothing = (zero, zero, zero, *([constant(0, U32)] if self._parts else []))
+        nothing = (zero, zero, zero, *([constant(0, U32)] if self.parts else []))
         met = if_(hit, lambda: meet(subject, now.ray, answer), lambda: nothing)
         value = None
         if self._measure is not None:
             measure, place = self._measure, Met(now.ray, answer.t, answer.steps)
             (value,) = if_(hit, lambda: (measure.at(place),), lambda: (zero,))
-        return Found(hit, answer.t, met[:3], answer.clear, behind(answer), met[3] if self._parts else None, value)
+        return Found(hit, answer.t, met[:3], answer.clear, behind(answer), met[3] if self.parts else None, value)
 
     def _flat(self, found: Found) -> Values:
         more = [v for v in (found.part, found.value) if v is not None]
@@ -140,26 +143,38 @@ class Chain:
 
     def _found(self, values: Sequence[Value]) -> Found:
         hit, t, x, y, z, clear, end, *rest = values
-        part = rest.pop(0) if self._parts else None
+        part = rest.pop(0) if self.parts else None
         return Found(hit, t, (x, y, z), clear, end, part, rest.pop(0) if rest else None)
 
     # ------------------------------------------------------------ answering
 
-    def _miss(self, now: Traveller, waiting: Value) -> Values:
-        sky = _counted(self._response.sky(now.ray.direction), now.weight)
-        return constant(False, BOOL), *sky, waiting, *now.flat()
+    def _no_backing(self) -> Values:
+        zero = constant(0.0, F32)
+        return (constant(False, BOOL), zero, zero, zero) if self._response.optics.backed else ()
+
+    def _unmet(self, direction: Sequence[Value], weight: Value, backing: Sequence[Value]) -> Values:
+        """What counts where a ray meets nothing more: the surface that it comes from, where that is solid then."""
+        seen = self._response.sky(direction)
+        if backing:
+            known, *own = backing
+            seen = [known.select(c, s) for c, s in zip(own, seen, strict=True)]
+        return _counted(seen, weight)
+
+    def _miss(self, now: Traveller, waiting: Value, backing: Values) -> Values:
+        seen = self._unmet(now.ray.direction, now.weight, backing)
+        return constant(False, BOOL), *seen, waiting, *now.flat(), *self._no_backing()
 
     def _meet(self, now: Traveller, found: Found, waiting: Value) -> Values:
         color, children = self._response.of(now.ray, now.start, found)
         added = _counted(color, now.weight)
         if not children:
-            return constant(False, BOOL), *added, waiting, *now.flat()
+            return constant(False, BOOL), *added, waiting, *now.flat(), *self._no_backing()
         going, added, onward = self._send(now, children[0], added)
         if len(children) > 1:
             other, added, waits = self._send(now, children[1], added)
             # Where only one of them goes on, nothing has to wait.
             both = going & other
-            if_(both, lambda: self._push(waiting, waits))
+            if_(both, lambda: self._push(waiting, waits[:SIZE]))
             waiting = both.select(waiting + 1, waiting)
             onward = tuple((other & ~going).select(b, a) for a, b in zip(onward, waits, strict=True))
             going = going | other
@@ -168,15 +183,18 @@ class Chain:
     def _send(self, now: Traveller, onward: Onward, added: Sequence[Value]) -> tuple[Value, Values, Values]:
         """Whether a ray is followed, the colour if it is not, and the ray."""
         weight = now.weight * onward.share
+        backing = self._no_backing()
+        if onward.backing is not None:
+            backing = (onward.backing.known, *onward.backing.color)
         going = (weight >= FAINTEST) & (now.left > 0)
         lost = (~going & (weight > 0.0)).select(weight, 0.0)
         sky = if_(
             lost > 0.0,
-            lambda: _counted(self._response.sky(onward.ray.direction), lost),
+            lambda: self._unmet(onward.ray.direction, lost, backing),
             lambda: (constant(0.0, F32),) * 3,
         )
         sent = Traveller(onward.ray, onward.start, weight, now.left - 1)
-        return going, tuple(a + s for a, s in zip(added, sky, strict=True)), sent.flat()
+        return going, tuple(a + s for a, s in zip(added, sky, strict=True)), (*sent.flat(), *backing)
 
     # ------------------------------------------------------------ the stack
 
@@ -201,7 +219,8 @@ class Chain:
     def _peek(self, slot: Value) -> Values:
         stack = self._builder.buffer(STACK, U32, writable=True)
         words = [load(stack, self._at(slot, i)) for i in range(STACK_WORDS)]
-        return *(word.bitcast(F32) for word in words[:-1]), words[-1]
+        # What waits is mirrored, and has nothing behind it but the surroundings.
+        return *(word.bitcast(F32) for word in words[:-1]), words[-1], *self._no_backing()
 
 
 def _counted(color: Sequence[Value], weight: Value) -> Values:

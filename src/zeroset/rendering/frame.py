@@ -120,7 +120,7 @@ class Frame:
         self.device = device
         self.lock = threading.Lock()
         optics = lighting.optics
-        ends = optics is not None and not optics.plain
+        ends = () if optics is None else optics.ends
         self._tracer = Tracer(drawn, method, device, True, shadows=lighting.shadows, ends=ends)
         self._shader = f"shade {lighting} {drawn.parts > 1}"
         self._bounces: Bounces | None = None

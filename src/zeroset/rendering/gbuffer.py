@@ -13,7 +13,7 @@ from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, constant, if_, lift, store
-from zeroset.rendering.buffers import COUNTERS, END, NORMAL, PART, SECOND, fields
+from zeroset.rendering.buffers import CLEAR, COUNTERS, END, NORMAL, PART, SECOND, Ends, fields
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.problem import Answer
 from zeroset.solve.shape import Leaf
@@ -118,11 +118,11 @@ def behind(answer: Answer) -> Value:
     return abs(end).fma(2.0**-22, end)
 
 
-def write(builder: KernelBuilder, subject: Subject, lane: Value, ray: Ray, answer: Answer, ends: bool = False) -> None:
-    """Store an answer, with the normal where something was found; ``ends``: and what lies around it."""
-    if ends:
-        for name, value in zip(END, (answer.clear.convert(F32), behind(answer)), strict=True):
-            store(builder.buffer(name, F32, writable=True), lane, value)
+def write(builder: KernelBuilder, subject: Subject, lane: Value, ray: Ray, answer: Answer, ends: Ends = ()) -> None:
+    """Store an answer, with the normal where something was found; ``ends``: and these places around it."""
+    places = {CLEAR: answer.clear.convert(F32), END: behind(answer)}
+    for name in ends:
+        store(builder.buffer(name, F32, writable=True), lane, places[name])
     buffers = {name: builder.buffer(name, type_, writable=True) for name, type_ in fields(subject.shape.parts).items()}
 
     names = NORMAL if subject.shape.parts == 1 else (*NORMAL, PART)

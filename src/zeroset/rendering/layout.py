@@ -7,12 +7,13 @@ frame is put into rows.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from zeroset.kernel import F32, KernelBuilder, Value
+from zeroset.kernel import F32, Buffer, KernelBuilder, Value, constant, if_, load
 
 TILE = 8
 
@@ -82,11 +83,59 @@ def pixel_place(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:
     return column, (tile_row << 3) + ((lane >> 5) & 1) * 4 + ((lane >> 2) & 3)
 
 
-def lane_at(builder: KernelBuilder, column: Value, row: Value) -> Value:
-    """The lane of a pixel inside the frame: what ``pixel_place`` undoes."""
-    tile = (row >> 3) * builder.uniform("columns", row.type) + (column >> 3)
-    block = (((row >> 2) & 1) << 1) | ((column >> 2) & 1)
-    return (tile << 6) | (block << 4) | ((row & 3) << 2) | (column & 3)
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """The pixel on one side of a lane's own, as far as the frame reaches.
+
+    It lies in the same block, in the tile's other block or in the next tile: each time so many lanes on that all lanes
+    of a packet load from places in a row, which costs far less than a load from anywhere.
+
+    Attributes:
+        exists: whether it is in the frame.
+        block: whether it is in the same block.
+        tile: whether, outside the block, it is in the same tile.
+        lanes: its lane in these two cases and in that of the next tile.
+    """
+
+    exists: Value
+    block: Value
+    tile: Value
+    lanes: tuple[Value, Value, Value]
+
+    @classmethod
+    def of(cls, builder: KernelBuilder, lane: Value, along: Value, rows: bool, onward: bool) -> Beside:
+        """The pixel beside another.
+
+        Args:
+            builder: of the kernel.
+            lane: the other.
+            along: its row where ``rows``, else its column.
+            rows: whether the pixel is in another row; else it is in another column.
+            onward: whether in the next one; else in the one before.
+        """
+        step, block = (4, 32) if rows else (1, 16)
+        tile = builder.uniform("columns", lane.type) * 64 if rows else constant(64, lane.type)
+        steps = constant(step, lane.type), constant(block - 3 * step, lane.type), tile - (block + 3 * step)
+        last = builder.uniform("height" if rows else "width", lane.type) - 1
+        if onward:
+            lanes = lane + steps[0], lane + steps[1], lane + steps[2]
+            return cls(along < last, (along & 3).ne(3), (along & 4).eq(0), lanes)
+        lanes = lane - steps[0], lane - steps[1], lane - steps[2]
+        return cls(along.ne(0), (along & 3).ne(0), (along & 4).ne(0), lanes)
+
+    def load(self, buffers: Sequence[Buffer]) -> tuple[Value, ...]:
+        """What buffers hold for it; zeros, or any pixel's, where it does not exist."""
+
+        def at(lane: Value) -> tuple[Value, ...]:
+            return tuple(load(buffer, lane) for buffer in buffers)
+
+        def nothing() -> tuple[Value, ...]:
+            return tuple(constant(0, buffer.type) for buffer in buffers)
+
+        def far() -> tuple[Value, ...]:
+            return if_(self.exists, lambda: at(self.lanes[2]), nothing)
+
+        return if_(self.block, lambda: at(self.lanes[0]), lambda: if_(self.tile, lambda: at(self.lanes[1]), far))
 
 
 def pixel_coordinates(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:

@@ -13,7 +13,7 @@ from zeroset.rendering.buffers import MATERIALS
 from zeroset.runtime import Device
 from zeroset.scene.light import Material
 
-NUMBERS = ("ambient", "diffuse", "specular", "shininess", "opacity", "reflectance", "ior")
+NUMBERS = ("ambient", "diffuse", "specular", "shininess", "opacity", "reflectance", "ior", "last_solid")
 COLUMNS = (*(f"{side}_{c}" for side in ("front", "back") for c in "rgb"), *NUMBERS)
 """The numbers of a material by name, in the order in which the table has them."""
 
@@ -23,7 +23,7 @@ def material_numbers(material: Material) -> dict[str, float]:
     colors = {
         f"{side}_{c}": v for side in ("front", "back") for c, v in zip("rgb", getattr(material, side), strict=True)
     }
-    return colors | {name: getattr(material, name) for name in NUMBERS}
+    return colors | {name: float(getattr(material, name)) for name in NUMBERS}
 
 
 def material_table(materials: Sequence[Material]) -> npt.NDArray[np.float32]:

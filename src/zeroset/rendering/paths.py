@@ -6,12 +6,15 @@ and no two lanes ever meet in memory.
 
 from __future__ import annotations
 
+from functools import partial
+
 from zeroset.kernel import BOOL, F32, U32, Kernel, KernelBuilder, Value, constant, for_, if_, load, store
-from zeroset.rendering.buffers import EDGES, END, NORMAL, PART, PICTURE, VALUE
-from zeroset.rendering.chain import Chain, Traveller
+from zeroset.rendering.buffers import CLEAR, EDGES, END, NORMAL, PART, PICTURE, VALUE
+from zeroset.rendering.chain import Chain, Traveller, Values
 from zeroset.rendering.layout import frame_coordinates, pixel_coordinates, pixel_place, tile_of
 from zeroset.rendering.quantity import Measure
 from zeroset.rendering.response import Color, Found, Response
+from zeroset.rendering.shade import background
 from zeroset.rendering.shading import Optics
 from zeroset.rendering.tint import Tint
 from zeroset.rendering.view import pixel_ray
@@ -35,16 +38,27 @@ def path_kernel(shape: Shape, offset: bool, optics: Optics, tint: Tint | None = 
         lane = place + builder.uniform("first", U32)
         column, row = pixel_place(builder, lane)
         inside = (column < builder.uniform("width", U32)) & (row < builder.uniform("height", U32))
-        ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
-        t, clear, end = (load(builder.buffer(name, F32), lane) for name in ("t", *END))
-        normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
-        part = load(builder.buffer(PART, U32), lane) if shape.parts > 1 else None
-        value = load(builder.buffer(VALUE, F32), lane) if tint is not None else None
-        found = Found(load(builder.buffer("status", U32), lane).ne(MISS), t, normal, clear, end, part, value)
-        first = Traveller(ray, constant(0.0, F32), constant(1.0, F32), builder.uniform("depth", U32))
-        color = _chain(builder, shape, offset, optics, tint, place).color(first, found, inside)
+        hit = load(builder.buffer("status", U32), lane).ne(MISS) & inside
+        follow = partial(_followed, builder, _chain(builder, shape, offset, optics, tint, place), lane)
+        if optics.sky:
+            # What is all around is seen by rays that meet nothing, too.
+            color = follow(hit, inside)
+        else:
+            color = if_(hit, lambda: follow(constant(True, BOOL), constant(True, BOOL)), lambda: background(builder))
         _draw(builder, column, row, inside, color)
     return builder.kernel
+
+
+def _followed(builder: KernelBuilder, chain: Chain, lane: Value, hit: Value, wanted: Value) -> Values:
+    """The encoded colour of a pixel, from what its ray has met on."""
+    ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
+    t = load(builder.buffer("t", F32), lane)
+    clear, end = (load(builder.buffer(name, F32), lane) if name in chain.ends else t for name in (CLEAR, END))
+    normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
+    part = load(builder.buffer(PART, U32), lane) if chain.parts else None
+    value = load(builder.buffer(VALUE, F32), lane) if chain.measures else None
+    first = Traveller(ray, constant(0.0, F32), constant(1.0, F32), builder.uniform("depth", U32))
+    return _encoded(chain.color(first, Found(hit, t, normal, clear, end, part, value), wanted))
 
 
 def sample_kernel(shape: Shape, offset: bool, optics: Optics, beams: bool, tint: Tint | None = None) -> Kernel:
@@ -78,7 +92,7 @@ def sample_kernel(shape: Shape, offset: bool, optics: Optics, beams: bool, tint:
             return tuple(c.fma(weight, s) for c, s in zip(seen, so_far, strict=True))
 
         zero = constant(0.0, F32)
-        _draw(builder, column, row, constant(True, BOOL), for_(samples, one, zero, zero, zero))
+        _draw(builder, column, row, constant(True, BOOL), _encoded(for_(samples, one, zero, zero, zero)))
     return builder.kernel
 
 
@@ -97,8 +111,12 @@ def _chain(
     return Chain(response, None if tint is None else Measure(builder, field, offset, tint), place, step)
 
 
+def _encoded(color: Color) -> Values:
+    return tuple(encode(c) for c in color)
+
+
 def _draw(builder: KernelBuilder, column: Value, row: Value, inside: Value, color: Color) -> None:
-    """Put a pixel's colour into the picture."""
-    packed = pack([encode(c) for c in color])
+    """Put a pixel's encoded colour into the picture."""
+    packed = pack(color)
     picture = builder.buffer(PICTURE, U32, writable=True)
     if_(inside, lambda: store(picture, row * builder.uniform("width", U32) + column, packed))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, load, store
-from zeroset.rendering.buffers import SECOND
+from zeroset.rendering.buffers import SECOND, Ends
 from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write
 from zeroset.rendering.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
 from zeroset.rendering.view import frame_patch, pixel_ray
@@ -62,7 +62,7 @@ def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
     return builder.uniform("near", F32), builder.uniform("far", F32)
 
 
-def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second: bool, ends: bool = False) -> Kernel:
+def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second: bool, ends: Ends = ()) -> Kernel:
     """One search a ray.
 
     Args:
@@ -71,7 +71,7 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
         pixels: whether rays are the camera's.
         beams: whether a ray starts where its tile's beam ended.
         second: whether it may ask for a second look.
-        ends: whether what lies around a find is kept, for rays that go on.
+        ends: which places around a find are kept, for rays that go on.
     """
     with KernelBuilder("primary" if pixels else "cast") as builder:
         lane = builder.index() + builder.uniform("first", U32)
@@ -92,7 +92,7 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
     return builder.kernel
 
 
-def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: bool = False, beams: bool = False) -> Kernel:
+def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), beams: bool = False) -> Kernel:
     """The rays on the list again, in f64; ``beams``: what they are shown to miss may be thinner than a pixel."""
     with KernelBuilder("second") as builder:
         place = builder.index()

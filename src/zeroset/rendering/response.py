@@ -8,7 +8,7 @@ rounding their origins may do: no epsilon has to be guessed. A straight one goes
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from zeroset.kernel import F32, U32, Value, constant, for_, load
 from zeroset.rendering.buffers import LIGHT_WORDS, LIGHTS, TEXELS
@@ -50,6 +50,19 @@ class Found:
 
 
 @dataclass(frozen=True, slots=True)
+class Backing:
+    """The colour of a surface that is solid where nothing lies behind it.
+
+    Attributes:
+        known: whether there is one.
+        color: red, green and blue.
+    """
+
+    known: Value
+    color: Color
+
+
+@dataclass(frozen=True, slots=True)
 class Onward:
     """A ray that goes on.
 
@@ -57,11 +70,13 @@ class Onward:
         ray: the ray.
         start: where on it.
         share: of the colour that the ray before it counts for.
+        backing: what is seen instead of the surroundings where the ray meets nothing; None for these.
     """
 
     ray: Ray
     start: Value
     share: Value
+    backing: Backing | None = None
 
 
 class Response:
@@ -102,17 +117,19 @@ class Response:
         opacity = number("opacity") if optics.through else constant(1.0, F32)
         mirror = number("reflectance") if optics.mirror else constant(0.0, F32)
         passing = (1.0 - opacity) * (1.0 - mirror)
-        color = [c * (opacity * (1.0 - mirror)) for c in self._lights(point, seen)]
+        lit = self._lights(point, seen)
+        backing = Backing(number("last_solid") > 0.0, lit) if optics.backed else None
+        color = [c * (opacity * (1.0 - mirror)) for c in lit]
         # Before the end of what is clear by the rounding of the new origin, which would put some of them behind the
         # surface; never before the ray's own start.
         before = (found.clear - _blur(ray, found.clear)).maximum(start.minimum(found.clear))
         if not optics.bends:
-            straight = [Onward(ray, found.end, passing)] if optics.through else []
+            straight = [Onward(ray, found.end, passing, backing)] if optics.through else []
             mirrored = [_mirrored(ray, before, seen, toward_eye, mirror)] if optics.mirror else []
             return color, straight + mirrored
         direction, total = self._bent(number("ior"), found.normal, toward_eye, seen.normal)
         mirror, passing = total.select(mirror + passing, mirror), total.select(0.0, passing)
-        bent = _from(ray, found.end + _blur(ray, found.end), direction, passing)
+        bent = replace(_from(ray, found.end + _blur(ray, found.end), direction, passing), backing=backing)
         reflected = _mirrored(ray, before, seen, toward_eye, mirror)
         # Where nothing mirrors there is still total reflection, and then nothing goes through.
         return color, [bent, reflected] if optics.mirror else [_either(total, reflected, bent)]
@@ -170,4 +187,6 @@ def _either(first: Value, a: Onward, b: Onward) -> Onward:
         tuple(first.select(x, y) for x, y in zip(of_a, of_b, strict=True))
         for of_a, of_b in ((a.ray.origin, b.ray.origin), (a.ray.direction, b.ray.direction))
     )
-    return Onward(Ray(origin, direction), first.select(a.start, b.start), first.select(a.share, b.share))
+    # Only what goes through can have a backing; what is reflected has none.
+    backing = None if b.backing is None else Backing(b.backing.known & ~first, b.backing.color)
+    return Onward(Ray(origin, direction), first.select(a.start, b.start), first.select(a.share, b.share), backing)

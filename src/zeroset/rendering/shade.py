@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, if_, load, store
-from zeroset.rendering.buffers import COLORS, LIT, PART, VALUE
+from zeroset.rendering.buffers import COLORS, LIT, NORMAL, PART, VALUE
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
 from zeroset.rendering.materials import material_at
 from zeroset.rendering.shading import LIGHT, Lighting
@@ -20,10 +20,10 @@ def shade_kernel(lighting: Lighting, parts: int = 1) -> Kernel:
     """Blinn-Phong over the background; the lighting and how many parts there are shape the kernel."""
     with KernelBuilder("shade") as builder:
         lane = builder.index()
-        normal = [load(builder.buffer(name, F32), lane) for name in ("nx", "ny", "nz")]
         hit = load(builder.buffer("status", U32), lane).ne(MISS)
 
         def lit() -> tuple[object, ...]:
+            normal = [load(builder.buffer(name, F32), lane) for name in NORMAL]
             ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
             toward_eye = [-d for d in normalised(ray.direction)]
             sources = _sources(builder, lighting, ray, lane)
@@ -32,17 +32,18 @@ def shade_kernel(lighting: Lighting, parts: int = 1) -> Kernel:
             color = blinn_phong(material_at(builder, part), normal, toward_eye, sources, albedo)
             return tuple(encode(c) for c in color)
 
-        def behind() -> tuple[object, ...]:
-            # Already encoded by the caller: the background is one colour for the whole frame.
-            return tuple(builder.uniform(f"background_{c}", F32) for c in "rgb")
-
-        color = pack(if_(hit, lit, behind))
+        color = pack(if_(hit, lit, lambda: background(builder)))
         rgba = builder.buffer("rgba", U32, writable=True)
         column, row = pixel_place(builder, lane)
         width = builder.uniform("width", U32)
         inside = (column < width) & (row < builder.uniform("height", U32))
         if_(inside, lambda: store(rgba, row * width + column, color))
     return builder.kernel
+
+
+def background(builder: KernelBuilder) -> tuple[Value, ...]:
+    """The background, encoded by the caller: it is one colour for the whole frame."""
+    return tuple(builder.uniform(f"background_{c}", F32) for c in "rgb")
 
 
 def by_value(builder: KernelBuilder, value: Value) -> Albedo:

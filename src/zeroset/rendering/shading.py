@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from zeroset.rendering.buffers import CLEAR, END, Ends
 from zeroset.rendering.materials import material_numbers
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Rays
@@ -37,6 +38,7 @@ class Optics:
     Attributes:
         through: whether light passes through surfaces.
         bends: whether it is bent there.
+        backed: whether some surfaces are seen through only where another one lies behind.
         mirror: whether surfaces mirror.
         sky: whether the surroundings are a cube map.
         smooth: whether some pixels have many rays.
@@ -45,6 +47,7 @@ class Optics:
 
     through: bool
     bends: bool
+    backed: bool
     mirror: bool
     sky: bool
     shadows: bool
@@ -60,6 +63,12 @@ class Optics:
         """Whether the first hit is all but at edges: then pixels are shaded as in any other frame."""
         return not (self.through or self.mirror or self.sky)
 
+    @property
+    def ends(self) -> Ends:
+        """What rays that go on need to know: where one that turns back, and where one that goes through may start."""
+        back = (CLEAR,) if self.mirror or self.bends else ()
+        return (*back, END) if self.through else back
+
     @classmethod
     def of(cls, scene: Scene, smooth: Smooth) -> Optics | None:
         """What a scene asks for; None where the first hit is all."""
@@ -71,6 +80,7 @@ class Optics:
         return cls(
             through,
             any(m.opacity < 1 and m.ior != 1 for m in materials),
+            any(m.opacity < 1 and m.last_solid for m in materials),
             mirror,
             scene.environment is not None,
             scene.shadows,

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, atomic, constant, if_, load, store
-from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, THIN
+from zeroset.rendering.buffers import BLOCK, COUNTERS, FIELDS, THIN, Ends
 from zeroset.rendering.gbuffer import write
 from zeroset.rendering.layout import TILE, pixel_coordinates, tile_of
 from zeroset.rendering.primary import EMPTY_TILE, camera_ray, t_range
@@ -44,7 +44,7 @@ class _Level:
         return self.pick((a, b, c))
 
 
-def thin_kernel(shape: Shape, offset: bool, ends: bool = False) -> Kernel:
+def thin_kernel(shape: Shape, offset: bool, ends: Ends = ()) -> Kernel:
     """One run; the uniform ``level`` says on what."""
     with KernelBuilder("thin") as builder:
         index = builder.index()
@@ -79,7 +79,7 @@ def thin_kernel(shape: Shape, offset: bool, ends: bool = False) -> Kernel:
     return builder.kernel
 
 
-def _record(builder: KernelBuilder, at: _Level, subject: Subject, lane: Value, thin: Thin, ends: bool) -> None:
+def _record(builder: KernelBuilder, at: _Level, subject: Subject, lane: Value, thin: Thin, ends: Ends) -> None:
     """Put what may hold something thin on the next list, or draw it."""
     counters = builder.buffer(COUNTERS, U32, writable=True)
     t = builder.buffer("t", FIELDS["t"], writable=True)

@@ -12,7 +12,7 @@ import numpy as np
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.rendering.buffers import BLOCK, COUNTERS, END, FROM, LIT, NOTHING, ONWARD, SECOND, THIN, fields
+from zeroset.rendering.buffers import BLOCK, COUNTERS, FROM, LIT, NOTHING, ONWARD, SECOND, THIN, Ends, fields
 from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.layout import TILE
 from zeroset.rendering.making import Making
@@ -46,7 +46,7 @@ class Tracer:
         device: where.
         pixels: whether the rays are a camera's, one a pixel, or a caller's.
         shadows: whether there is a pass for what is in the lights' path.
-        ends: whether what lies around each find is kept, for rays that go on.
+        ends: which places around each find are kept, for rays that go on.
         layered: whether each run of the first look finds what comes behind the last run's finds (``layers``).
     """
 
@@ -58,7 +58,7 @@ class Tracer:
         pixels: bool,
         layered: bool = False,
         shadows: bool = False,
-        ends: bool = False,
+        ends: Ends = (),
     ) -> None:
         self._layered = layered
         self._shadows = shadows
@@ -71,7 +71,7 @@ class Tracer:
         self._arrays = Arrays(device)
         shape = as_drawn(surface).shape
         self._parts = shape.parts
-        self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {ends}"
+        self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {' '.join(ends)}"
         self._shared: list[str] = []
         self._making = Making(device)
         self._drawn = False
@@ -169,8 +169,7 @@ class Tracer:
         wanted = ({} if self._layered else fields(self._parts)) | (SECOND if self._second else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, 3)
-        if self._ends:
-            made |= {name: self._device.allocate(F32, rays) for name in END}
+        made |= {name: self._device.allocate(F32, rays) for name in self._ends}
         if self._shadows:
             made[LIT] = self._device.allocate(U32, rays)
         if self.beams:

@@ -16,13 +16,14 @@ from zeroset.solve.subject import Subject
 from zeroset.solve.systems import automatic_system
 
 
-def _vector(builder: KernelBuilder, name: str) -> list[Value]:
+def vector(builder: KernelBuilder, name: str) -> list[Value]:
+    """One of the camera's vectors."""
     return [builder.uniform(f"{name}_{axis}", F32) for axis in "xyz"]
 
 
 def pixel_ray(builder: KernelBuilder, u: Value, v: Value) -> Ray:
     """The ray through one point of the frame."""
-    eye, across, upwards, forward, right, up = (_vector(builder, name) for name in VECTORS)
+    eye, across, upwards, forward, right, up = (vector(builder, name) for name in VECTORS)
     origin = tuple(u.fma(a, v.fma(b, e)) for e, a, b in zip(eye, across, upwards, strict=True))
     direction = tuple(u.fma(a, v.fma(b, f)) for f, a, b in zip(forward, right, up, strict=True))
     return Ray(origin, direction)
@@ -30,7 +31,7 @@ def pixel_ray(builder: KernelBuilder, u: Value, v: Value) -> Ray:
 
 def beam_rays(builder: KernelBuilder, system: Any, u: Any, v: Any) -> tuple[list[Any], list[Any]]:
     """Origins and directions of a tile's rays as numbers in u and v, covering how ``pixel_ray`` rounds."""
-    eye, across, upwards, forward, right, up = (_vector(builder, name) for name in VECTORS)
+    eye, across, upwards, forward, right, up = (vector(builder, name) for name in VECTORS)
 
     def affine(base: list[Value], a: list[Value], b: list[Value]) -> list[Any]:
         # Two fused steps on numbers no larger than |base| + |a| + |b| (u and v are at most 1): four roundings cover it.

@@ -15,7 +15,7 @@ from zeroset.scene.lines import Path
 LONGEST = 60
 """Characters of a value that an error shows."""
 TEXTS = ("formula", "name", "solid", "source", "environment", "coloring", "by", "map")
-SWITCHES = ("shadows", "headlight")
+SWITCHES = ("shadows", "headlight", "last_solid")
 SINGLE = ("formula", "name", "solid", *SWITCHES)
 """What even an empty list is not."""
 CORNERS = ("center", "min", "max")

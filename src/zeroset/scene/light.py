@@ -73,6 +73,8 @@ class Material:
         reflectance: share of the light that is mirrored.
         ior: index of refraction of the inside, where f < 0, against the outside; 1 bends nothing.
         coloring: colours both sides by a quantity instead; text for one in its usual colours.
+        last_solid: whether it is seen through only where another surface lies behind, so that the last one along a ray
+            is solid, and nothing of the surroundings is seen through the surface (K09 section 6.2).
     """
 
     front: Color = (0.95, 0.52, 0.12)
@@ -85,6 +87,7 @@ class Material:
     reflectance: float = 0.0
     ior: float = 1.0
     coloring: Coloring | None = None
+    last_solid: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "front", color(self.front, "a material's front colour"))
@@ -99,6 +102,9 @@ class Material:
         for name in ("opacity", "reflectance"):
             if not 0 <= getattr(self, name) <= 1:
                 raise ParameterError(f"a material's {name} must be from 0 to 1, not {getattr(self, name)!r}")
+        if self.last_solid not in (True, False):
+            raise ParameterError(f"a material's last_solid must be True or False, not {self.last_solid!r}")
+        object.__setattr__(self, "last_solid", bool(self.last_solid))
         object.__setattr__(self, "coloring", as_coloring(self.coloring))
         if not 0.1 <= self.ior <= 10:
             raise ParameterError(f"a material's index of refraction must be from 0.1 to 10, not {self.ior!r}")

@@ -7,8 +7,8 @@ from zeroset.arith import elementary
 from zeroset.kernel import Value
 
 
-def shine(cosine: Value, exponent: Value) -> Value:
-    """cosine**exponent for a cosine clamped to (0, 1]; 0 below."""
-    lit = cosine > 1e-4
-    base = lit.select(cosine, 1.0).minimum(1.0)
+def shine(base: Value, exponent: Value) -> Value:
+    """base**exponent for a base clamped to (0, 1]; 0 for next to nothing and below."""
+    lit = base > 1e-8
+    base = lit.select(base, 1.0).minimum(1.0)
     return lit.select(elementary.exp(FORMAT, elementary.log(FORMAT, base) * exponent), 0.0)

@@ -71,10 +71,13 @@ class Face:
 
     def lit(self, color: Sequence[Value], light: Sequence[Value], tint: Sequence[Value]) -> Color:
         """A colour with one more light, given by its unit direction and its colour."""
-        lambert = dot(self.normal, light).maximum(0.0)
-        half = normalised([a + b for a, b in zip(light, self.toward_eye, strict=True)])
+        cosine = dot(self.normal, light)
+        lambert = cosine.maximum(0.0)
+        # The vector halfway between light and viewer is never made: of unit vectors, its square is 2 + 2 light * eye.
+        along = (cosine + dot(self.normal, self.toward_eye)).maximum(0.0)
+        square = along * along / dot(light, self.toward_eye).fma(2.0, 2.0).maximum(1e-6)
         shininess, specular, diffuse = (self.uniform(name) for name in ("shininess", "specular", "diffuse"))
-        highlight = (lambert > 0.0).select(shine(dot(self.normal, half), shininess) * specular, 0.0)
+        highlight = (lambert > 0.0).select(shine(square, shininess * 0.5) * specular, 0.0)
         r, g, b = (c + t * (k * diffuse * lambert + highlight) for c, k, t in zip(color, self.base, tint, strict=True))
         return r, g, b
 

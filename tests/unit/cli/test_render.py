@@ -187,6 +187,8 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
         "shadows": ("--shadows",),
         "sky": ("--environment", "sky"),
         "glass": ("--opacity", "0.2", "--ior", "1.4", "--reflectance", "0.1"),
+        "layers": ("--opacity", "0.3"),
+        "solid": ("--opacity", "0.3", "--last-solid"),
         "smooth": ("--antialias", "8"),
     }
     drawn = {}
@@ -198,6 +200,8 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
         assert name == "plain" or not np.array_equal(drawn["plain"], drawn[name])
     glass = zs.load(tmp_path / "glass.toml").material
     assert (glass.opacity, glass.ior, glass.reflectance) == (0.2, 1.4, 0.1)
+    assert not np.array_equal(drawn["layers"], drawn["solid"])
+    assert zs.load(tmp_path / "solid.toml").material.last_solid
     assert zs.load(tmp_path / "shadows.toml").shadows
     assert zs.load(tmp_path / "sky.toml").environment is not None
 

@@ -309,7 +309,7 @@ def test_plain_pictures_have_nothing_of_it() -> None:
     from zeroset.rendering.shading import Optics
 
     scene = zs.Scene(RING)
-    optics = Optics(True, False, True, False, False, False)
+    optics = Optics(True, False, False, True, False, False, False)
     kernels = [
         shade_kernel(Lighting.of(scene, Smooth())),
         path_kernel(as_drawn(RING).shape, False, optics),

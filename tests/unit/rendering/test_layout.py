@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
-from zeroset.kernel import F32, U32, KernelBuilder, interp, store
-from zeroset.rendering.layout import TILE, Layout, pixel_coordinates, pixel_place, tile_coordinates, tile_of
+from zeroset.kernel import F32, U32, KernelBuilder, if_, interp, store
+from zeroset.rendering.layout import TILE, Beside, Layout, pixel_coordinates, pixel_place, tile_coordinates, tile_of
 
 SIZES = [(1, 1), (7, 5), (8, 8), (9, 8), (513, 31), (64, 48)]
 
@@ -64,3 +66,37 @@ def test_a_tile_holds_its_pixels(size: tuple[int, int]) -> None:
     half = layout.uniforms()["pixel"] * 0.5 * TILE
     assert np.all(np.abs(found["u"] - found["tile_u"]) <= half)
     assert np.all(np.abs(found["v"] - found["tile_v"]) <= half)
+
+
+def beside(layout: Layout) -> dict[tuple[bool, bool], tuple[np.ndarray, np.ndarray]]:  # type: ignore[type-arg]
+    """For each side of every lane's pixel whether there is another one, and the number of that one."""
+    sides = [(rows, onward) for rows in (False, True) for onward in (False, True)]
+    with KernelBuilder("beside") as builder:
+        lane = builder.index()
+        column, row = pixel_place(builder, lane)
+        number = builder.buffer("number", U32)
+        for i, (rows, onward) in enumerate(sides):
+            there = Beside.of(builder, lane, row if rows else column, rows, onward)
+            inside = (column < builder.uniform("width", U32)) & (row < builder.uniform("height", U32))
+            store(builder.buffer(f"exists{i}", U32, writable=True), lane, (there.exists & inside).select(1, 0))
+            (found,) = if_(inside, partial(there.load, [number]), lambda: (0,))
+            store(builder.buffer(f"found{i}", U32, writable=True), lane, found)
+    given = places(layout)
+    buffers = {"number": (given["row"] << 16) + given["column"]}
+    buffers |= {f"{name}{i}": np.zeros(layout.lanes, np.uint32) for name in ("exists", "found") for i in range(4)}
+    interp.run(builder.kernel, layout.lanes, layout.uniforms(), buffers)
+    return {side: (buffers[f"exists{i}"], buffers[f"found{i}"]) for i, side in enumerate(sides)}
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_neighbours_are_beside_each_other(size: tuple[int, int]) -> None:
+    layout = Layout(*size)
+    place = places(layout)
+    column, row = place["column"].astype(int), place["row"].astype(int)
+    inside = (column < layout.width) & (row < layout.height)
+    for (rows, onward), (exists, found) in beside(layout).items():
+        step = 1 if onward else -1
+        c, r = (column, row + step) if rows else (column + step, row)
+        wanted = inside & (c >= 0) & (c < layout.width) & (r >= 0) & (r < layout.height)
+        assert np.array_equal(exists != 0, wanted)
+        assert np.array_equal(found[wanted], (r * 65536 + c)[wanted])

@@ -54,6 +54,49 @@ def test_layers_add_up_from_front_to_back(device: str) -> None:
 
 
 @pytest.mark.parametrize("device", DEVICES)
+def test_the_last_layer_may_be_solid(device: str) -> None:
+    """K09 section 6.2: transparency counts only in front of another surface."""
+    shells = zs.surface("(r2 - 1)(r2 - 2)(r2 - 3)".replace("r2", "(x^2+y^2+z^2)"), bounds=2.0)
+    sides = zs.Material((1, 0, 0), (0, 1, 0), ambient=1, diffuse=0, specular=0, opacity=0.3, last_solid=True)
+    for depth, layers in ((None, 4), (0, 1), (2, 3), (9, 6)):
+        image = zs.render(shells, SIZE, material=sides, background=(0, 0, 1), depth=depth, device=device)
+        shares = [0.3 * 0.7**k for k in range(layers - 1)] + [0.7 ** (layers - 1)]
+        # Ever by turns a ray sees the side that it enters by and the one that it leaves by.
+        wanted = bytes_of(np.array((sum(shares[::2]), sum(shares[1::2]), 0)))
+        assert np.asarray(image)[SIZE // 2, SIZE // 2] == pytest.approx(wanted, abs=1.01), depth
+        assert np.asarray(image)[0, 0].tolist() == [0, 0, 255]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("more", [{}, {"reflectance": 0.4}, {"ior": 1.3}, {"reflectance": 0.4, "ior": 1.3}], ids=str)
+def test_alone_a_surface_whose_last_layer_is_solid_is_solid(more: dict[str, float], device: str) -> None:
+    floor = zs.surface("z", bounds=zs.Box((-4, -4, -0.5), (4, 4, 0.5)))
+    camera = zs.Camera(eye=(0, -6, 3), target=(0, 0, 0.4), fov=50)
+    solid = zs.Material(**{**more, "ior": 1.0})
+    glass = zs.Material(**more, opacity=0.3, last_solid=True)
+    a, b = (
+        np.asarray(zs.render(floor, SIZE, camera=camera, material=m, environment="sky", device=device)).astype(int)
+        for m in (solid, glass)
+    )
+    assert np.abs(a - b).max() <= 1
+
+
+def test_each_part_says_whether_its_last_layer_is_solid() -> None:
+    flat = {"ambient": 1.0, "diffuse": 0.0, "specular": 0.0, "opacity": 0.5}
+    balls = [
+        zs.surface(f"(x - {x})^2 + y^2 + z^2 - 1", bounds=zs.Ball(1.2, (x, 0, 0))).with_material(
+            zs.Material((1, 0, 0), (0, 1, 0), **flat, last_solid=last)
+        )
+        for x, last in ((-1.5, True), (1.5, False))
+    ]
+    camera = zs.Camera(eye=(0, -9, 0), height=6.0)
+    image = np.asarray(zs.render(zs.Scene(balls, camera=camera), SIZE, background=(0, 0, 1)))
+    left, right = image[SIZE // 2, SIZE // 4], image[SIZE // 2, 3 * SIZE // 4]
+    assert left == pytest.approx(bytes_of(np.array((0.5, 0.5, 0.0))), abs=1.01)
+    assert right == pytest.approx(bytes_of(np.array((0.5, 0.25, 0.25))), abs=1.01)
+
+
+@pytest.mark.parametrize("device", DEVICES)
 def test_a_plane_mirror_shows_the_sky_upside_down(device: str) -> None:
     floor = zs.surface("z", bounds=zs.Box((-4, -4, -0.5), (4, 4, 0.5)))
     camera = zs.Camera(eye=(0, -6, 3), target=(0, 0, 0.4), fov=50)

@@ -15,7 +15,7 @@ SCENES = [
     zs.Scene(
         zs.surface("x^4 - a*x^2 + y + w", {"a": 5.5, "w": 0.1}, bounds=zs.Box((-1, -1, -1), (1, 2, 3)), name="tangle"),
         zs.Camera((4, -7, 4), (0, 0, 0.1), (0, 0.1, 1), 35),
-        zs.Material(front=(0.9, 0.5, 0.1), shininess=12.5),
+        zs.Material(front=(0.9, 0.5, 0.1), shininess=12.5, opacity=0.5, last_solid=True),
         (zs.Light((0.1, 0.2, 0.3), (0.1, 0.1, 0.1), headlight=False),),
         (0.1, 0.2, 0.3),
     ),
@@ -111,6 +111,7 @@ LIGHTS = f"{F}\n[[lights]]\ndirection = [0, 0, 1]\n\n[[lights]]\n"
         (F + '\n[camera]\nup = "123"', 3, "camera.up must be three numbers", ""),
         (F + "\n[lights]\ndirection = [0, 0, 1]", 2, "lights must be a list", "[[lights]]"),
         (F + "\nlights = [\n  {color = [1, 1, 1]},\n  3]", 4, "a light must be a table, not 3", ""),
+        (F + "\n[material]\nlast_solid = 1", 3, "last_solid must be true or false", ""),
         (LIGHTS + "headlight = 1", 6, "headlight must be true or false", ""),
         ('formula = ["x"]', 1, "needs a formula as text", "formula = "),
         ('formula = """\nx^2 +\n"""', 1, "value is missing", ""),

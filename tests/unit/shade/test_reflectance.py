@@ -87,7 +87,7 @@ def test_the_power_of_the_highlight(exponent: float) -> None:
     out = np.zeros(301, np.float32)
     interp.run(builder.kernel, 301, {"e": exponent}, {"x": cosines, "out": out})
     truth = np.clip(cosines.astype(float), 0, 1) ** exponent
-    assert np.allclose(out, np.where(cosines > 1e-4, truth, 0), atol=1e-3)
+    assert np.allclose(out, np.where(cosines > 1e-8, truth, 0), atol=1e-3)
 
 
 def test_vectors_are_normalised_and_zero_stays_zero() -> None:

@@ -11,9 +11,11 @@ import pytest
 from flint import fmpq, fmpq_poly
 
 import zeroset as zs
-from zeroset.kernel import F32, U32, KernelBuilder, constant, load, store
+from zeroset.arith import NotPolynomialError
+from zeroset.kernel import BOOL, F32, U32, KernelBuilder, constant, load, store
 from zeroset.runtime import get_device
-from zeroset.solve.clipping import can_clip, clipped
+from zeroset.solve import clipping
+from zeroset.solve.clipping import can_clip, clipped, looked_over
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.problem import Problem
 
@@ -52,6 +54,25 @@ def clip(formula: Callable[..., Any] | str, origins: Array, directions: Array) -
     return buffers["start"].astype(float), buffers["none"] != 0
 
 
+def look_over(formula: Callable[..., Any] | str, origins: Array, directions: Array) -> tuple[Array, Array]:
+    """Whether there certainly is nothing along each ray from 0 to FAR, and whether there certainly is something."""
+    surface = zs.surface(formula, bounds=10)
+    with KernelBuilder("look_over") as builder:
+        lane = builder.index()
+        o, d = (tuple(load(builder.buffer(f"{n}{axis}", F32), lane) for axis in "xyz") for n in "od")
+        far, tolerance = constant(FAR, F32), constant(TOLERANCE, F32)
+        problem = Problem(Lowered(surface.field, builder), Ray(o, d), constant(0.0, F32), far, tolerance, far)
+        rest, hidden = looked_over(problem, constant(True, BOOL))
+        store(builder.buffer("none", U32, writable=True), lane, (rest.t0 >= far).convert(U32))
+        store(builder.buffer("hidden", U32, writable=True), lane, hidden.convert(U32))
+    count = len(origins)
+    buffers: dict[str, Array] = {"none": np.zeros(count, np.uint32), "hidden": np.zeros(count, np.uint32)}
+    buffers |= {f"o{axis}": np.ascontiguousarray(origins[:, i]) for i, axis in enumerate("xyz")}
+    buffers |= {f"d{axis}": np.ascontiguousarray(directions[:, i]) for i, axis in enumerate("xyz")}
+    get_device("cpu").compile(builder.kernel).run(count, {}, buffers)
+    return buffers["none"] != 0, buffers["hidden"] != 0
+
+
 def first_root(formula: Callable[..., Any], origin: Array, direction: Array) -> float:
     """The first root from 0 to FAR; infinity where there is none. The polynomial is exact."""
     t = fmpq_poly([0, 1])
@@ -75,6 +96,19 @@ def rays(count: int, seed: int) -> tuple[Array, Array]:
     return origins.astype(np.float32), directions.astype(np.float32)
 
 
+@pytest.fixture(params=["quick", "careful"])
+def how(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The two ways to the polynomial's coefficients."""
+
+    def refuse(*arguments: object) -> None:
+        raise NotPolynomialError("no")
+
+    if request.param == "careful":
+        monkeypatch.setattr(clipping, "_quick_floor", refuse)
+    return str(request.param)
+
+
+@pytest.mark.usefixtures("how")
 @pytest.mark.parametrize("name", FORMULAS)
 def test_what_is_passed_over_holds_no_root(name: str) -> None:
     formula = FORMULAS[name]
@@ -89,6 +123,27 @@ def test_what_is_passed_over_holds_no_root(name: str) -> None:
     assert np.median(roots[np.isfinite(roots)] - start[np.isfinite(roots)]) < close * TOLERANCE
 
 
+@pytest.mark.usefixtures("how")
+@pytest.mark.parametrize("name", FORMULAS)
+def test_what_is_seen_at_a_look_over_is_so(name: str) -> None:
+    formula = FORMULAS[name]
+    origins, directions = rays(300, 8)
+    none, hidden = look_over(formula, origins, directions)
+    roots = np.array([first_root(formula, o, d) for o, d in zip(origins, directions, strict=True)])
+    assert not np.any(none & np.isfinite(roots))
+    assert not np.any(hidden & np.isinf(roots))
+    # A double root changes no sign, and is left to the search.
+    assert np.mean((none | hidden)[np.isinf(roots)]) > 0.85
+    assert np.mean(hidden[np.isfinite(roots)]) > (0.8 if name != "double" else -1)
+
+
+def test_formulas_with_functions_of_parameters_are_clipped_too() -> None:
+    surface = zs.surface("exp(a)*x^2 + y^2 + z^2 - 1", params={"a": 0.3}, bounds=2)
+    image = zs.render(surface, 64, shadows=True, material=zs.Material(reflectance=0.5))
+    assert image.hits > 500
+
+
+@pytest.mark.usefixtures("how")
 def test_rays_that_leave_a_surface_get_off_it() -> None:
     _, normals = rays(500, 6)
     _, directions = rays(500, 7)
@@ -116,6 +171,7 @@ def test_what_is_no_polynomial_of_low_degree_is_left_alone() -> None:
             assert clipped(problem) is problem
 
 
+@pytest.mark.usefixtures("how")
 def test_numbers_beyond_all_bounds_let_nothing_pass() -> None:
     origins = np.full((8, 3), 1e30, np.float32)
     directions = np.full((8, 3), -1e30, np.float32)
@@ -123,3 +179,4 @@ def test_numbers_beyond_all_bounds_let_nothing_pass() -> None:
     start, none = clip(FORMULAS["sextic"], origins, directions)
     assert not none.any()
     assert np.all(start <= 0.0)
+    assert not np.any(look_over(FORMULAS["sextic"], origins, directions))

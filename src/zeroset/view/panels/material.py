@@ -10,7 +10,7 @@ from zeroset.scene.light import Material
 from zeroset.view.panels import coloring
 from zeroset.view.panels.context import Context
 from zeroset.view.state import State
-from zeroset.view.widgets import choice, color, slider
+from zeroset.view.widgets import checkbox, choice, color, slider
 
 SHARES = (("ambient", 1.0), ("diffuse", 1.5), ("specular", 1.5))
 NOTHING = "none"
@@ -55,6 +55,10 @@ def _optics(imgui: Any, material: Material) -> dict[str, Any]:
         changed, value = slider(imgui, "refraction", material.ior, (0.5, 2.5), "%.2f", hint=hint)
         if changed:
             changes["ior"] = min(max(value, 0.1), 10.0)
+        hint = "seen through only where another surface lies behind"
+        last = checkbox(imgui, "last one solid", material.last_solid, hint)
+        if last != material.last_solid:
+            changes["last_solid"] = last
     return changes
 
 
