@@ -1,8 +1,8 @@
 """The kernels that find surfaces: beams over tiles, one ray a pixel, rays that a caller brings, and second looks.
 
-A second look is for rays that a certified method left unresolved in f32, mostly because rounding hid a sign: the same
-ray is searched again in f64, from where the first search had proven it clear. It goes to the few rays on the list
-alone.
+A second look is for rays that a certified method left unresolved in f32, mostly because rounding hid a sign, and for
+hits where f is so flat that no slope has proven them, nor tells a normal: the same ray is searched again in f64, from
+where the first search had proven it clear. It goes to the few rays on the list alone.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: bool = False, 
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
         answer = subject.nearest(lambda body: in_doubles(problem_on(body, ray, near, far, None), clear), stride)
-        # Even where it stays unresolved, f64 comes closer to a double root than f32 could see. What f32 has proven stays.
+        # What f32 has proven stays. Even where f64 leaves it open, it comes closer to a double root than f32 could.
         proven = load(builder.buffer("status", U32, writable=True), lane).eq(HIT) & answer.status.ne(HIT)
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
         better = replace(answer, steps=spent)
