@@ -73,7 +73,7 @@ def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
 
     # Nothing is run, so any device will do.
     tracer = Tracer(scene.surface, method, get_device("interp"), pixels=True)
-    passes = {"beams": "beams", "primary": "first", "second": "second", "thin": "thin"}
+    passes = {"beams": "beams", "primary": "first", "second": "second", "thin": "thin", "parts": "parts"}
     if not method.certified:
         passes = {"primary": "first"}
     made: dict[str, Callable[[], Kernel]] = {

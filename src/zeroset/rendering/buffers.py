@@ -15,11 +15,17 @@ FROM, ONWARD = "from", "onward"
 """Where the search for a ray's next layer starts, and where the one after it will."""
 NOTHING = -1e30
 """Where it starts along a ray on which nothing was found yet: before every bounds."""
-THIN = {"block_missed": U32, "block_reach": F32, "thin_block": U32, "thin_pixel": U32}
+THIN = {"block_missed": U32, "block_reach": F32, "thin_block": U32}
 """For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and where the first thing
-is that may be thinner than a pixel. Then the lists of blocks and of pixels that may hold such a thing."""
+is that may be thinner than a pixel. Then the list of blocks that may hold such a thing."""
+THIN_PIXEL = "thin_pixel"
+"""The list of pixels that may hold such a thing."""
+PARTS = {"thin_left": U32, "thin_parts": U32}
+"""Places on that list: of pixels that f32 has left parts of; and for each place which parts of its pixel, as bits."""
 COUNTERS = "counters"
-"""How long the lists are: the second look's, the blocks' and the pixels' with thin parts."""
+"""How long the lists are: the second look's, the blocks' and the pixels' with thin parts, and that with parts left."""
+LISTS = 4
+"""How many lists are counted."""
 CLEAR, END = "clear", "end"
 """Up to where a ray met nothing, and where what it met is behind it; for frames whose rays go on."""
 Ends = tuple[str, ...]

@@ -189,7 +189,7 @@ class Frame:
         if not draft:
             self._tracer.second_look(drawn, uniforms, bound)
         if thin and not draft:
-            self._tracer.thin_parts(uniforms, bound, self.layout.tiles)
+            self._tracer.thin_parts(drawn, uniforms, bound, self.layout.tiles)
         kept = self._fields
         range_: tuple[float, float] | None = None
         if self._colors is not None and palette is not None:

@@ -138,8 +138,8 @@ def write(builder: KernelBuilder, subject: Subject, lane: Value, ray: Ray, answe
     store(buffers["steps"], lane, answer.steps)
 
 
-def ask_second_look(builder: KernelBuilder, lane: Value, answer: Answer) -> None:
-    """Put an unresolved ray on the list, in no particular order."""
+def ask_second_look(builder: KernelBuilder, lane: Value, answer: Answer, blunt: bool = False) -> None:
+    """Put an unresolved ray on the list, in no particular order; ``blunt``: and one whose hit no slope has proven."""
     lanes, clear = (builder.buffer(name, type_, writable=True) for name, type_ in SECOND.items())
     counters = builder.buffer(COUNTERS, U32, writable=True)
 
@@ -148,7 +148,10 @@ def ask_second_look(builder: KernelBuilder, lane: Value, answer: Answer) -> None
         store(lanes, slot, lane)
         store(clear, slot, answer.clear.convert(F32))
 
-    if_(answer.status.eq(UNRESOLVED), append)
+    wanted = answer.status.eq(UNRESOLVED)
+    if blunt and answer.blunt is not None:
+        wanted = answer.status.ne(MISS) & (wanted | answer.blunt)
+    if_(wanted, append)
 
 
 def ask_for_thin(builder: KernelBuilder, lane: Value, missed: Value) -> None:

@@ -1,15 +1,15 @@
 """The kernels that find surfaces: beams over tiles, one ray a pixel, rays that a caller brings, and second looks.
 
-A second look is for rays that a certified method left unresolved in f32, mostly because rounding hid a sign: the same
-ray is searched again in f64, from where the first search had proven it clear. It goes to the few rays on the list
-alone.
+A second look is for rays that a certified method left unresolved in f32, mostly because rounding hid a sign, and for
+hits where f is so flat that no slope has proven them, nor tells a normal: the same ray is searched again in f64, from
+where the first search had proven it clear. It goes to the few rays on the list alone.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, load, store
+from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load, store
 from zeroset.rendering.buffers import SECOND, Ends
 from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write
 from zeroset.rendering.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
@@ -21,7 +21,7 @@ from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
 from zeroset.solve.shape import Shape
-from zeroset.solve.status import MISS
+from zeroset.solve.status import HIT, MISS
 from zeroset.solve.subject import LoweredBody, Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
@@ -86,7 +86,7 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
         answer = subject.nearest(lambda body: problem_on(body, ray, near, far, step), method.trace)
         write(builder, subject, lane, ray, answer, ends)
         if second:
-            ask_second_look(builder, lane, answer)
+            ask_second_look(builder, lane, answer, blunt=True)
         if beams:
             ask_for_thin(builder, lane, answer.status.eq(MISS) & (near < EMPTY_TILE))
     return builder.kernel
@@ -101,9 +101,11 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), bea
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
         answer = subject.nearest(lambda body: in_doubles(problem_on(body, ray, near, far, None), clear), stride)
-        # Even where it stays unresolved, f64 comes closer to a double root than f32 could see.
+        # What f32 has proven stays. Even where f64 leaves it open, it comes closer to a double root than f32 could.
+        proven = load(builder.buffer("status", U32, writable=True), lane).eq(HIT) & answer.status.ne(HIT)
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
-        write(builder, subject, lane, exact_ray(ray), replace(answer, steps=spent), ends)
+        better = replace(answer, steps=spent)
+        if_(~proven, lambda: write(builder, subject, lane, exact_ray(ray), better, ends))
         if beams:
             ask_for_thin(builder, lane, answer.status.eq(MISS))
     return builder.kernel

@@ -12,7 +12,21 @@ import numpy as np
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, F64, U32
-from zeroset.rendering.buffers import BLOCK, COUNTERS, FROM, LIT, NOTHING, ONWARD, SECOND, THIN, Ends, fields
+from zeroset.rendering.buffers import (
+    BLOCK,
+    COUNTERS,
+    FROM,
+    LISTS,
+    LIT,
+    NOTHING,
+    ONWARD,
+    PARTS,
+    SECOND,
+    THIN,
+    THIN_PIXEL,
+    Ends,
+    fields,
+)
 from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.layout import TILE
 from zeroset.rendering.making import Making
@@ -27,7 +41,9 @@ DRAFT = ("beams", "first", "shadow")
 """The passes of a draft, which leaves out second looks and thin parts."""
 ORDER = (*DRAFT, "thin", "second")
 """Passes in the order in which their programs are made."""
-SHORT = ("thin", "second")
+RARE = "parts"
+"""The pass that many pictures need nothing of: its program is made when the first pixel asks for it."""
+SHORT = ("thin", "second", RARE)
 """Passes that take little of a small picture's time; their programs are made in a hurry for the first one."""
 AT_ONCE = 5
 """Programs that are made side by side: compilers are to be kept at work while other kernels are being traced."""
@@ -75,6 +91,7 @@ class Tracer:
         self._shared: list[str] = []
         self._making = Making(device)
         self._drawn = False
+        self._hurry = False
         for name, build in self._kernels(shape, pixels).items():
             self._making.add(name, f"{name} {self._key}", build)
 
@@ -109,7 +126,12 @@ class Tracer:
         def thin() -> Kernel:
             from zeroset.rendering.thin import thin_kernel
 
-            return thin_kernel(shape, offset, ends)
+            return thin_kernel(shape, offset, ends, self._second)
+
+        def parts() -> Kernel:
+            from zeroset.rendering.parts import parts_kernel
+
+            return parts_kernel(shape, offset, ends)
 
         def shadow() -> Kernel:
             from zeroset.rendering.shadow import shadow_kernel
@@ -123,6 +145,8 @@ class Tracer:
             made["second"] = second
         if self.beams:
             made |= {"beams": beams, "thin": thin}
+            if self._second:
+                made[RARE] = parts
         return made
 
     def kernel(self, name: str) -> Kernel:
@@ -146,6 +170,7 @@ class Tracer:
             hurry: whether a first picture is so small that compiling for it takes longer than drawing it.
         """
         passes = [name for name in (DRAFT if draft else ORDER) if name in self._making]
+        self._hurry = not self._drawn
         wanted = [*passes[:-1], *self._shared, *passes[-1:]]
         if self._device.name == "gpu":
             # A draft: the driver compiles the first shader while the second is traced, one tracing at a time.
@@ -168,16 +193,15 @@ class Tracer:
         """Fresh buffers for so many rays and tiles, those of the outputs included where there is one layer."""
         wanted = ({} if self._layered else fields(self._parts)) | (SECOND if self._second else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
-        made[COUNTERS] = self._device.allocate(U32, 3)
+        made[COUNTERS] = self._device.allocate(U32, LISTS)
         made |= {name: self._device.allocate(F32, rays) for name in self._ends}
         if self._shadows:
             made[LIT] = self._device.allocate(U32, rays)
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
-            made |= {
-                name: self._device.allocate(type_, rays if name == "thin_pixel" else rays // BLOCK)
-                for name, type_ in THIN.items()
-            }
+            made |= {name: self._device.allocate(type_, rays // BLOCK) for name, type_ in THIN.items()}
+            listed = {THIN_PIXEL: U32} | (PARTS if self._second else {})
+            made |= {name: self._device.allocate(type_, rays) for name, type_ in listed.items()}
         return made
 
     def begin(self, drawn: Drawn, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
@@ -217,9 +241,15 @@ class Tracer:
         """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so."""
         if not self._second or self._device.lanes(Counted(bound[COUNTERS], 0)) == 0:
             return
+        self._in_doubles("second", Counted(bound[COUNTERS], 0), drawn, uniforms, bound)
+
+    def _in_doubles(
+        self, name: str, lanes: Counted, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers
+    ) -> None:
+        """Run a pass that reads its numbers in f64."""
         exact = {**uniforms, **drawn.parameters(self._method, F64)}
         arrays = drawn.bind(self._arrays, F64) if drawn.arrays else {}
-        self.program("second").run(Counted(bound[COUNTERS], 0), exact, {**bound, **arrays})
+        self.program(name).run(lanes, exact, {**bound, **arrays})
 
     def shadows(self, lights: Iterable[Mapping[str, float]], uniforms: Mapping[str, float], bound: Buffers) -> None:
         """See which lights reach what was found."""
@@ -228,8 +258,8 @@ class Tracer:
         for light in lights:
             self.program("shadow").run(rays, {**uniforms, **light}, bound)
 
-    def thin_parts(self, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
-        """Draw what lies between the rays: by blocks, by the pixels of those, by the parts of those."""
+    def thin_parts(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
+        """Draw what lies between the rays: by blocks, by the pixels of those, by the parts of those, last in f64."""
         if not self.beams:
             return
         program = self.program("thin")
@@ -237,3 +267,7 @@ class Tracer:
         # What one run puts on a list, the next looks at in sixteen pieces each.
         for level in (1, 2):
             program.run(Counted(bound[COUNTERS], level, BLOCK), {**uniforms, "level": level}, bound)
+        left = Counted(bound[COUNTERS], 3)
+        if self._second and self._device.lanes(left) != 0:
+            self._making.begin((RARE,), 1, (RARE,) if self._hurry else ())
+            self._in_doubles(RARE, left, drawn, uniforms, bound)

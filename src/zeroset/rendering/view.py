@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from zeroset.arith import F32 as FORMAT
-from zeroset.kernel import F32, KernelBuilder, Value
+from zeroset.arith import F32 as FORMAT32
+from zeroset.arith import F64 as FORMAT64
+from zeroset.kernel import F32, KernelBuilder, Type, Value
 from zeroset.scene.camera import VECTORS
 from zeroset.scene.clip import outside
 from zeroset.solve.beam import Patch
@@ -29,13 +30,14 @@ def pixel_ray(builder: KernelBuilder, u: Value, v: Value) -> Ray:
     return Ray(origin, direction)
 
 
-def beam_rays(builder: KernelBuilder, system: Any, u: Any, v: Any) -> tuple[list[Any], list[Any]]:
-    """Origins and directions of a tile's rays as numbers in u and v, covering how ``pixel_ray`` rounds."""
-    eye, across, upwards, forward, right, up = (vector(builder, name) for name in VECTORS)
+def beam_rays(builder: KernelBuilder, system: Any, u: Any, v: Any, type_: Type = F32) -> tuple[list[Any], list[Any]]:
+    """Origins and directions of a patch's rays as numbers in u and v, covering how ``pixel_ray`` rounds in a type."""
+    vectors = ([x.convert(type_) for x in vector(builder, name)] for name in VECTORS)
+    eye, across, upwards, forward, right, up = vectors
 
     def affine(base: list[Value], a: list[Value], b: list[Value]) -> list[Any]:
         # Two fused steps on numbers no larger than |base| + |a| + |b| (u and v are at most 1): four roundings cover it.
-        slack = [(abs(p) + abs(q) + abs(r)) * (4 * 2.0**-24) for p, q, r in zip(base, a, b, strict=True)]
+        slack = [(abs(p) + abs(q) + abs(r)) * (4 * system.fmt.eps) for p, q, r in zip(base, a, b, strict=True)]
         return [
             system.enclose(p, s) + system.exact(q) * u + system.exact(r) * v
             for p, q, r, s in zip(base, a, b, slack, strict=True)
@@ -45,9 +47,11 @@ def beam_rays(builder: KernelBuilder, system: Any, u: Any, v: Any) -> tuple[list
 
 
 def frame_patch(builder: KernelBuilder, subject: Subject, u: Value, v: Value, half: Value) -> Patch:
-    """The rays through the frame's patch of half the side ``half`` around (u, v)."""
-    system = automatic_system(subject.shape, FORMAT, symbols=3)
-    origin, direction = beam_rays(builder, system, system.symbol(0, u, half), system.symbol(1, v, half))
+    """The rays through the frame's patch of half the side ``half`` around (u, v), all of the subject's type."""
+    fmt = FORMAT32 if subject.type == F32 else FORMAT64
+    system = automatic_system(subject.shape, fmt, symbols=3)
+    across, upwards = system.symbol(0, u, half), system.symbol(1, v, half)
+    origin, direction = beam_rays(builder, system, across, upwards, subject.type)
 
     def beyond(body: Body, point: Sequence[Any]) -> Value:
         return outside(builder, body.kind, system, point, body.prefix)

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from zeroset.kernel import F32, KernelBuilder, Value
+from zeroset.arith import F32 as FORMAT32
+from zeroset.kernel import F32, F64, KernelBuilder, Value
 from zeroset.scene.bounds import NAMES
 
 ROUNDING = 2.0**-21
@@ -71,7 +72,8 @@ def _clip_box(bounds: list[Value], origin: Sequence[Value], direction: Sequence[
 
 def outside(builder: KernelBuilder, kind: str, system: Any, point: Sequence[Any], prefix: str = "") -> Value:
     """Whether a region, given as numbers of an enclosing system, certainly lies outside the bounds."""
-    bounds = [system.exact(v) for v in _uniforms(builder, prefix)]
+    type_ = F32 if system.fmt is FORMAT32 else F64
+    bounds = [system.exact(v.convert(type_)) for v in _uniforms(builder, prefix)]
     if kind == "ball":
         squares = [(p - c).sqr() for p, c in zip(point, bounds[:3], strict=True)]
         distance = squares[0] + squares[1] + squares[2] - bounds[3].sqr()

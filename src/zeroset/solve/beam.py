@@ -12,9 +12,10 @@ to Steiner's axes, which have no thickness at all (SN10 figure 6, K09 figure 6).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
-from zeroset.arith import Dual, DualSystem
+from zeroset.arith import Dual, DualSystem, IntervalSystem
 from zeroset.kernel import BOOL, U32, Value, constant, for_, if_, while_
 from zeroset.solve.field import Lowered
 from zeroset.solve.shape import Body
@@ -61,6 +62,23 @@ class Patch(NamedTuple):
             excluded = excluded & self.clears(body, point)
         return excluded
 
+    def excludes_well(self, point: Sequence[Any]) -> Value:
+        """``excludes``, by intervals too.
+
+        Where f is a sum of powers that are small together, such as at a cusp, a form does not know that an even one is
+        not below 0, and intervals do; elsewhere they are too wide to say anything.
+        """
+        intervals, box = IntervalSystem(self.system.fmt), [p.interval() for p in point]
+
+        def by_intervals() -> tuple[Value]:
+            excluded = self.subject.bodies[0].excludes(intervals, box)
+            for body in self.subject.bodies[1:]:
+                excluded = excluded & body.excludes(intervals, box)
+            return (excluded,)
+
+        (excluded,) = if_(~self.excludes(point), by_intervals, lambda: (True,))
+        return excluded
+
     def clears(self, body: LoweredBody, point: Sequence[Any]) -> Value:
         """Whether there is certainly nothing of one body inside its bounds at these points."""
         return body.excludes(self.system, point) | self.outside(body.body, point)
@@ -97,19 +115,34 @@ EARLY = 64.0
 
 
 class Thin(NamedTuple):
-    """Whether a pixel may hold a thin part of the surface, at which t, and the evaluations spent."""
+    """What a search for a thin part has found.
+
+    Attributes:
+        found: whether a pixel may hold one.
+        t: where.
+        steps: the evaluations spent.
+    """
 
     found: Value
     t: Value
     steps: Value
 
 
-def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:
+def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value, anything: Value | None = None) -> Thin:
     """Look along a pixel's beam for a part of the surface that is thinner than the pixel.
 
     Where a step cannot be excluded, the derivatives of f across the pixel decide: near an ordinary silhouette one of
     them keeps its sign, mostly over a long stretch, and the pixel is left to its ray there; where both may vanish, down
     to a step of ``finest``, f has an extremum near zero inside the pixel, which is what a thin part is.
+
+    Args:
+        patch: the pixel's rays.
+        near: start of the search.
+        far: its end.
+        step: a first step.
+        finest: the shortest one.
+        anything: lanes that ask for whatever cannot be excluded by all means, be it an ordinary surface; None where all
+            ask for thin parts, and affine forms are enough to exclude by.
     """
 
     def running(a: Value, h: Value, found: Value, count: Value) -> Value:
@@ -118,8 +151,10 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value)
     def turn(a: Value, h: Value, found: Value, count: Value) -> tuple[Value, ...]:
         b = a + h
         point, t = patch.over(a, b)
-        excluded = patch.excludes(point)
+        excluded = patch.excludes(point) if anything is None else patch.excludes_well(point)
         asked = ~excluded & (h <= finest * EARLY)
+        if anything is not None:
+            asked = asked & ~anything
         (flat,) = if_(asked, lambda: (_flat_across(patch, point, t),), lambda: (True,))
         passed = excluded | ~flat
         thin = ~passed & (h <= finest)
@@ -139,7 +174,8 @@ def _flat_across(patch: Patch, point: Sequence[Any], t: Any) -> Value:
 
     def narrow(symbol: Value, *so_far: Value) -> tuple[Value, ...]:
         return tuple(
-            flat & _may_vanish(patch, lowered, t, symbol) for flat, (_, _, lowered) in zip(so_far, fields, strict=True)
+            if_(flat, partial(_may_vanish, patch, lowered, t, symbol), lambda: (False,))[0]
+            for flat, (_, _, lowered) in zip(so_far, fields, strict=True)
         )
 
     if patch.subject.shape.plain:
@@ -152,7 +188,7 @@ def _flat_across(patch: Patch, point: Sequence[Any], t: Any) -> Value:
     return flat
 
 
-def _may_vanish(patch: Patch, lowered: Lowered, t: Any, symbol: Value) -> Value:
+def _may_vanish(patch: Patch, lowered: Lowered, t: Any, symbol: Value) -> tuple[Value]:
     """Whether the derivative of f along one symbol of the patch, 0 or 1, may vanish at this t."""
     dual = DualSystem(patch.system, 1)
 
@@ -164,5 +200,4 @@ def _may_vanish(patch: Patch, lowered: Lowered, t: Any, symbol: Value) -> Value:
         return Dual(dual, base, (patch.system.exact(symbol.eq(0).select(along_u, along_v)),))
 
     moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
-    vanishes: Value = lowered.evaluate(dual, *moved).derivative(0).contains_zero()
-    return vanishes
+    return (lowered.evaluate(dual, *moved).derivative(0).contains_zero(),)

@@ -90,6 +90,8 @@ class Answer:
         side: the certain sign of f where the ray comes from, just before t; 0 where it is not known.
         end: what was found is behind the ray here, and the search for what comes next may go on.
         mark: the parts that it can be of, as bits; None where there is but one.
+        blunt: whether f was too flat there for its slope to prove the root: its sign around a whole tolerance did; None
+            where the method does not tell.
     """
 
     t: Value
@@ -99,3 +101,4 @@ class Answer:
     side: Value
     end: Value
     mark: Value | None = None
+    blunt: Value | None = None

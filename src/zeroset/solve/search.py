@@ -91,7 +91,10 @@ def search(
 
     begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0), problem.t0)
     state = while_(running, turn, *first, alive, *zone.components(), *begin, *zone.parts())
-    return Answer(state[n + 6], state[n + 5], *state[n + 7 :])
+    # Where the slope is known it leaves little of the narrowest intervals that can hold the root.
+    blunt = (state[n + 2] > 0) & (state[n + 10] - state[n + 8] > problem.tolerance * 0.5)
+    status, t, steps, clear, side, end, *mark = state[n + 5 :]
+    return Answer(t, status, steps, clear, side, end, mark[0] if mark else None, blunt)
 
 
 @dataclass(frozen=True, slots=True)

@@ -152,6 +152,7 @@ def _nearer(a: Answer, b: Answer) -> Answer:
         pick(a.side, b.side),
         pick(a.end, b.end),
         pick(a.mark, b.mark),
+        None if a.blunt is None or b.blunt is None else pick(a.blunt, b.blunt),
     )
 
 
