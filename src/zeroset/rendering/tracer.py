@@ -42,7 +42,7 @@ DRAFT = ("beams", "first", "shadow")
 ORDER = (*DRAFT, "thin", "second")
 """Passes in the order in which their programs are made."""
 RARE = "parts"
-"""The pass that many pictures need nothing of: its program is made when the first pixel asks for it."""
+"""The pass that many pictures need nothing of: its program is made when a pixel asks, or after the first picture."""
 SHORT = ("thin", "second", RARE)
 """Passes that take little of a small picture's time; their programs are made in a hurry for the first one."""
 AT_ONCE = 5
@@ -84,6 +84,8 @@ class Tracer:
         self.certified = method.certified
         self.beams = pixels and method.certified and not layered
         self._second = method.certified and device.supports(F64)
+        # A GPU cannot say without being waited for whether a list is empty, and would have to make every program.
+        self._again = self._second and self.beams and device.name != "gpu"
         self._arrays = Arrays(device)
         shape = as_drawn(surface).shape
         self._parts = shape.parts
@@ -126,7 +128,7 @@ class Tracer:
         def thin() -> Kernel:
             from zeroset.rendering.thin import thin_kernel
 
-            return thin_kernel(shape, offset, ends, self._second)
+            return thin_kernel(shape, offset, ends, self._again)
 
         def parts() -> Kernel:
             from zeroset.rendering.parts import parts_kernel
@@ -145,8 +147,8 @@ class Tracer:
             made["second"] = second
         if self.beams:
             made |= {"beams": beams, "thin": thin}
-            if self._second:
-                made[RARE] = parts
+        if self._again:
+            made[RARE] = parts
         return made
 
     def kernel(self, name: str) -> Kernel:
@@ -176,13 +178,16 @@ class Tracer:
             # A draft: the driver compiles the first shader while the second is traced, one tracing at a time.
             self._making.begin(wanted, 1 if draft else 2)
         elif self._drawn:
-            self._making.begin(wanted, AT_ONCE)
+            # Who draws once more may do so often: then nothing that is still to come shall hold up a picture.
+            self._making.begin([*wanted, RARE] if self._again and not draft else wanted, AT_ONCE)
             self._making.improve()
         else:
             self._making.begin(wanted, AT_ONCE, (*SHORT, *self._shared) if hurry else (), SHORT)
 
     def settle(self) -> None:
-        """Wait until everything that was begun is there, and as good as it gets."""
+        """Wait until everything is there that was begun or that another picture may ask for, and as good as it gets."""
+        if self._again:
+            self._making.begin((RARE,), 1)
         self._making.settle()
 
     def outputs(self, rays: int) -> dict[str, Any]:
@@ -200,7 +205,7 @@ class Tracer:
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
             made |= {name: self._device.allocate(type_, rays // BLOCK) for name, type_ in THIN.items()}
-            listed = {THIN_PIXEL: U32} | (PARTS if self._second else {})
+            listed = {THIN_PIXEL: U32} | (PARTS if self._again else {})
             made |= {name: self._device.allocate(type_, rays) for name, type_ in listed.items()}
         return made
 
@@ -268,6 +273,6 @@ class Tracer:
         for level in (1, 2):
             program.run(Counted(bound[COUNTERS], level, BLOCK), {**uniforms, "level": level}, bound)
         left = Counted(bound[COUNTERS], 3)
-        if self._second and self._device.lanes(left) != 0:
+        if self._again and self._device.lanes(left) != 0:
             self._making.begin((RARE,), 1, (RARE,) if self._hurry else ())
             self._in_doubles(RARE, left, drawn, uniforms, bound)
