@@ -112,11 +112,13 @@ def _quick_floor(problem: Problem, length: Value) -> _Floor:
         begin.append(inner.exact(o) + inner.exact(d) * inner.exact(problem.t0))
         slope = d * length
         along.append(system.linear(reals.exact(begin[-1].centre), reals.exact(slope)))
-        majorants.append(sizes.linear(abs(o) + abs(d * problem.t0) + abs(slope), 2))
+        moved = d * problem.t0
+        size, error = abs(begin[-1].centre) + abs(slope), (abs(moved) + abs(o) + abs(slope)) * (4.0 * fmt.eps)
+        majorants.append(sizes.linear(size, error))
     start = problem.lowered.evaluate(inner, *begin).interval()
     f = problem.lowered.evaluate(system, *along)
     # Beside those of the coefficients: of the reciprocal and the product with it, of each sum, and three below.
-    error = problem.lift(problem.lowered.evaluate(sizes, *majorants).error(degree + 5))
+    error = problem.lift(problem.lowered.evaluate(sizes, *majorants).bound(degree + 5))
     low, high = problem.lift(start.lo), problem.lift(start.hi)
     negative = high < 0.0
     first = negative.select(-high, low)
