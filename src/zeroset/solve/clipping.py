@@ -27,6 +27,8 @@ from zeroset.solve.problem import Problem
 
 HIGHEST = 6
 """Degree up to which this pays: the coefficients' cost and rounding grow with it."""
+LOW = 4
+"""Degree up to which it pays even for rays that a beam has brought close to what they meet."""
 LOOKS = 12
 """Splits after which a ray is left to the search."""
 NEAR = 8.0
@@ -36,12 +38,12 @@ BEGIN = 0.5
 """Share of the stretch that is tried first."""
 
 
-def can_clip(problem: Problem) -> bool:
+def can_clip(problem: Problem, highest: int = HIGHEST) -> bool:
     """Whether f is a polynomial of a degree that is treated, and f = 0 is all that is searched."""
     if problem.body is not None:
         return False
     degree = problem.lowered.field.degree
-    return degree is not None and 1 <= degree <= HIGHEST
+    return degree is not None and 1 <= degree <= highest
 
 
 def clipped(problem: Problem) -> Problem:
