@@ -1,14 +1,14 @@
-"""How large the terms of a polynomial are, all signs taken as plus, and how often computing one may have rounded.
+"""How large the terms of a polynomial are, all signs taken as plus, and how far rounding has moved them.
 
 Evaluating a formula on these beside real coefficients (``PolySystem`` over ``RealSystem``) bounds what was rounded in
 them all at once, for a fraction of what carrying an error with each coefficient costs. For a polynomial with true
-coefficients c_k, computed as C_k, there are numbers M_k >= |c_k| with
+coefficients c_k, computed as C_k, there are numbers M_k and E_k with
 
-    |C_k - c_k| <= roundings * eps * M_k,    sum M_k <= size.
+    |c_k|, |C_k| <= M_k,    |C_k - c_k| <= E_k,    sum M_k <= size,    sum E_k <= error.
 
-Products and sums of polynomials keep this, with ``size`` multiplied and added; terms of second order, and the rounding
-of ``size`` itself, are in the factor of ``error``. Whatever is no polynomial, and whatever would need more than that to
-be bounded, is refused.
+Sums and products keep this, as the triangle inequality has it. Terms of second order, and the rounding of these numbers
+themselves, are in the factor of ``bound``. Whatever is no polynomial, and whatever would need more than that to be
+bounded, is refused.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = ["Majorant", "MajorantSystem"]
 
 MARGIN = 1.02
 _MOST = 10_000
-"""Roundings up to which the margin covers what they do to one another, in either format."""
+"""Roundings up to which the margin covers what they do to one another and to the bounds, in either format."""
 
 
 def _refuse(operation: str) -> NoReturn:
@@ -41,34 +41,38 @@ class Majorant(Number):
 
     Attributes:
         size: a scalar.
+        error: a scalar.
         degree: of the polynomial, at most.
-        roundings: known while tracing.
+        depth: roundings that coefficients, size and error have gone through, known while tracing.
     """
 
-    __slots__ = ("_system", "degree", "roundings", "size")
+    __slots__ = ("_system", "degree", "depth", "error", "size")
 
-    def __init__(self, system: MajorantSystem, size: Scalar, degree: int, roundings: int) -> None:
-        if roundings > _MOST:
+    def __init__(self, system: MajorantSystem, size: Scalar, error: Scalar, degree: int, depth: int) -> None:
+        if depth > _MOST:
             _refuse("a formula as long as this")
         self._system = system
         self.size = size
+        self.error = error
         self.degree = degree
-        self.roundings = roundings
+        self.depth = depth
 
     @property
     def system(self) -> MajorantSystem:
         """The system that made this number."""
         return self._system
 
-    def error(self, more: int = 0) -> Scalar:
+    def bound(self, more: int = 0) -> Scalar:
         """Bound of the sum of all coefficients' errors, those of ``more`` further roundings of each included."""
         fmt = self._system.fmt
-        return mul(self.size, fmt.up((self.roundings + more) * MARGIN * fmt.eps))
+        return mul(fma(self.size, more * fmt.eps, self.error), fmt.up(MARGIN))
 
     def add(self, other: Majorant, /) -> Majorant:
         """One rounding."""
-        degree, roundings = max(self.degree, other.degree), max(self.roundings, other.roundings)
-        return Majorant(self._system, add(self.size, other.size), degree, roundings + 1)
+        size = add(self.size, other.size)
+        error = fma(size, self._system.fmt.eps, add(self.error, other.error))
+        depth = max(self.depth, other.depth) + 3
+        return Majorant(self._system, size, error, max(self.degree, other.degree), depth)
 
     def neg(self) -> Majorant:
         """The same."""
@@ -76,21 +80,29 @@ class Majorant(Number):
 
     def mul(self, other: Majorant, /) -> Majorant:
         """One rounding for a product, and one for each term that is added to it."""
-        terms = min(self.degree, other.degree) + 1
-        # What underflows in the products is less than the summand.
-        size = fma(self.size, other.size, self._system.lost)
-        return Majorant(self._system, size, self.degree + other.degree, self.roundings + other.roundings + terms)
+        return self._product(other, fma(self.size, other.error, mul(other.size, self.error)))
 
     def sqr(self) -> Majorant:
         """As a product; doubling is exact."""
-        return self.mul(self)
+        return self._product(self, mul(mul(self.size, 2.0), self.error))
+
+    def _product(self, other: Majorant, moved: Scalar) -> Majorant:
+        terms = min(self.degree, other.degree) + 1
+        # What underflows in the products is less than a rounding of the summand.
+        size = fma(self.size, other.size, self._system.lost)
+        error = fma(size, terms * self._system.fmt.eps, moved)
+        depth = self.depth + other.depth + terms + 4
+        return Majorant(self._system, size, error, self.degree + other.degree, depth)
 
     def div(self, other: Majorant, /) -> Majorant:
         """By a number that is known while tracing."""
-        if other.degree or not is_literal(other.size) or is_zero(other.size) or other.roundings:
+        known = is_literal(other.size, other.error) and is_zero(other.error) and other.size > self._system.lost
+        if other.degree or not known:
             _refuse("a quotient")
         inverse = self._system.fmt.up(1.0 / other.size)
-        return Majorant(self._system, mul(self.size, inverse), self.degree, self.roundings + 1)
+        size = add(mul(self.size, inverse), self._system.lost)
+        error = fma(size, self._system.fmt.eps, mul(self.error, inverse))
+        return Majorant(self._system, size, error, self.degree, self.depth + 4)
 
     def powi(self, n: int, /) -> Majorant:
         """By repeated squares, as polynomials do it."""
@@ -129,7 +141,7 @@ class MajorantSystem(System[Majorant]):
         fmt: format of the scalars.
 
     Attributes:
-        lost: a size of which one rounding is more than what underflows in a product of polynomials.
+        lost: a size of which one rounding is more than what underflows in a product of polynomials; none is smaller.
     """
 
     def __init__(self, fmt: Format) -> None:
@@ -141,25 +153,23 @@ class MajorantSystem(System[Majorant]):
         """The floating-point format of the scalars."""
         return self._fmt
 
-    def linear(self, size: Scalar, roundings: int) -> Majorant:
-        """A coordinate along a ray, whose two coefficients are together no larger than ``size``."""
-        return Majorant(self, add(size, self.lost), 1, roundings)
+    def linear(self, size: Scalar, error: Scalar = 0.0) -> Majorant:
+        """A coordinate along a ray: the sum of its two coefficients' magnitudes, and of their errors."""
+        return Majorant(self, add(size, self.lost), add(error, self.lost * self._fmt.eps), 1, 8)
 
     def constant(self, lo: float, hi: float) -> Majorant:
-        """A constant, which a real number holds rounded once."""
+        """A constant, which a real number holds rounded."""
         largest = max(abs(lo), abs(hi))
-        size = self._fmt.up(largest)
-        exact = lo == hi and self._fmt.exact(lo)
-        if not exact and (hi - lo > largest * self._fmt.eps or size >= self._fmt.big):
-            _refuse("a constant that is hardly known")
-        # The middle of the bounds is rounded once more than their own distance from it.
-        return Majorant(self, size if exact else max(size, self._fmt.quantum / self._fmt.eps), 0, 0 if exact else 2)
+        size = max(self._fmt.up(largest), self.lost)
+        if lo == hi and self._fmt.exact(lo):
+            return Majorant(self, size, 0.0, 0, 0)
+        if size >= self._fmt.big:
+            _refuse("a constant as large as this")
+        return Majorant(self, size, self._fmt.up(hi - lo + largest * self._fmt.eps + self._fmt.quantum), 0, 2)
 
     def enclose(self, value: Scalar, error: Scalar) -> Majorant:
-        """A parameter: what is not known of it counts as one rounding."""
-        if is_zero(error):
-            return Majorant(self, absolute(value), 0, 0)
-        return Majorant(self, fma(error, 1.01 / self._fmt.eps, absolute(value)), 0, 1)
+        """A parameter, within its error."""
+        return Majorant(self, add(add(absolute(value), error), self.lost), error, 0, 2)
 
     def general(self, number: Majorant) -> Majorant:
         """Sums over arrays round as often as there are elements, which nobody knows here."""

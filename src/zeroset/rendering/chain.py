@@ -16,7 +16,7 @@ from zeroset.rendering.gbuffer import behind, meet
 from zeroset.rendering.primary import problem_on, stride
 from zeroset.rendering.quantity import Measure, Met
 from zeroset.rendering.response import BRIGHTEST, Found, Onward, Response
-from zeroset.solve.clipping import clipped
+from zeroset.solve.clipping import LOW, can_clip, clipped
 from zeroset.solve.field import Ray
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.status import MISS
@@ -124,7 +124,8 @@ class Chain:
 
         def ahead(problem: Problem) -> Answer:
             # A beam has brought its rays close to what they meet; others have to get away from where they begin.
-            return stride(problem if self._step is not None else clipped(problem))
+            near = self._step is not None and not can_clip(problem, LOW)
+            return stride(problem if near else clipped(problem))
 
         answer = subject.nearest(lambda body: problem_on(body, now.ray, now.start, farthest, self._step), ahead)
         hit = answer.status.ne(MISS)

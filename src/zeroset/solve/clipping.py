@@ -27,6 +27,8 @@ from zeroset.solve.problem import Problem
 
 HIGHEST = 6
 """Degree up to which this pays: the coefficients' cost and rounding grow with it."""
+LOW = 4
+"""Degree up to which it pays even for rays that a beam has brought close to what they meet."""
 LOOKS = 12
 """Splits after which a ray is left to the search."""
 NEAR = 8.0
@@ -36,12 +38,12 @@ BEGIN = 0.5
 """Share of the stretch that is tried first."""
 
 
-def can_clip(problem: Problem) -> bool:
+def can_clip(problem: Problem, highest: int = HIGHEST) -> bool:
     """Whether f is a polynomial of a degree that is treated, and f = 0 is all that is searched."""
     if problem.body is not None:
         return False
     degree = problem.lowered.field.degree
-    return degree is not None and 1 <= degree <= HIGHEST
+    return degree is not None and 1 <= degree <= highest
 
 
 def clipped(problem: Problem) -> Problem:
@@ -112,11 +114,13 @@ def _quick_floor(problem: Problem, length: Value) -> _Floor:
         begin.append(inner.exact(o) + inner.exact(d) * inner.exact(problem.t0))
         slope = d * length
         along.append(system.linear(reals.exact(begin[-1].centre), reals.exact(slope)))
-        majorants.append(sizes.linear(abs(o) + abs(d * problem.t0) + abs(slope), 2))
+        moved = d * problem.t0
+        size, error = abs(begin[-1].centre) + abs(slope), (abs(moved) + abs(o) + abs(slope)) * (4.0 * fmt.eps)
+        majorants.append(sizes.linear(size, error))
     start = problem.lowered.evaluate(inner, *begin).interval()
     f = problem.lowered.evaluate(system, *along)
     # Beside those of the coefficients: of the reciprocal and the product with it, of each sum, and three below.
-    error = problem.lift(problem.lowered.evaluate(sizes, *majorants).error(degree + 5))
+    error = problem.lift(problem.lowered.evaluate(sizes, *majorants).bound(degree + 5))
     low, high = problem.lift(start.lo), problem.lift(start.hi)
     negative = high < 0.0
     first = negative.select(-high, low)
