@@ -205,7 +205,7 @@ def _target_code(kernel: Kernel, target: str, device: str) -> Iterator[str]:
     from zeroset.runtime.cpu import host
 
     cpu = host()[0]
-    code = llvm.to_llvm(optimise(kernel), cpu)
+    code = llvm.to_llvm(optimise(kernel), cpu.suited(kernel))
     yield code if target == "llvm" else to_assembly(code, cpu)
 
 

@@ -7,7 +7,12 @@ SSE2, SSE4.2, AVX2 with FMA, AVX-512) and AArch64's NEON; any other CPU is compi
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from zeroset.kernel.build import Kernel
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +46,14 @@ class Target:
     def uncontracted(self) -> Target:
         """The same target without contraction: each operation then rounds as the interpreter's does."""
         return replace(self, contract=False)
+
+    def suited(self, kernel: Kernel) -> Target:
+        """The same target with as many lanes as fill its registers: half as many for a kernel that is mostly in f64.
+
+        Twice as many run no faster, and take almost twice as long to compile.
+        """
+        types = Counter(result.type.name for i in kernel.body.walk() for result in i.results)
+        return replace(self, width=max(self.width // 2, 1)) if types["f64"] > types["f32"] else self
 
     @property
     def identity(self) -> str:

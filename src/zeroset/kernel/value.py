@@ -56,6 +56,13 @@ class Block:
         self.yields: tuple[Value, ...] = ()
         self.seen: dict[Any, Instruction] = {}
 
+    def walk(self) -> Iterator[Instruction]:
+        """All instructions in here, nested ones after their own."""
+        for instruction in self.instructions:
+            yield instruction
+            for region in instruction.regions:
+                yield from region.walk()
+
 
 class _Trace(threading.local):
     def __init__(self) -> None:

@@ -86,7 +86,7 @@ class CpuDevice(HostMemory):
         from zeroset.codegen import llvm
         from zeroset.kernel.passes import optimise
 
-        return llvm.to_llvm(optimise(kernel), self.target)
+        return llvm.to_llvm(optimise(kernel), self.target.suited(kernel))
 
     def _translate(self, kernel: Kernel, text: str, quick: bool) -> Compiled:
         from zeroset.codegen import llvm
@@ -94,7 +94,7 @@ class CpuDevice(HostMemory):
         code = llvm.to_object(text, self.target, 0 if quick else None)
         flat = image.link(code, _ENTRY) if image.can_place() else None
         kind, data = ("object", code) if flat is None else ("image", flat)
-        return Compiled(Signature.of(kernel), self.target.width, kind, data)
+        return Compiled(Signature.of(kernel), self.target.suited(kernel).width, kind, data)
 
     def _place(self, compiled: Compiled) -> CpuProgram:
         try:

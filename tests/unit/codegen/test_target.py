@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from zeroset.codegen.target import host_targets
+from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Type, load, store
 
 AVX512 = dict.fromkeys(("sse2", "sse4.1", "sse4.2", "avx2", "fma", "avx512f", "avx512bw", "avx512dq", "avx512vl"), True)
 LINUX = "x86_64-unknown-linux-gnu"
@@ -35,3 +36,18 @@ def test_identities_differ() -> None:
     targets = host_targets(LINUX, "znver4", AVX512)
     identities = {t.identity for t in targets} | {t.uncontracted().identity for t in targets}
     assert len(identities) == 2 * len(targets)
+
+
+def squares(type_: Type) -> Kernel:
+    with KernelBuilder("squares") as k:
+        x, i = k.buffer("x", type_, writable=True), k.index()
+        y = load(x, i)
+        store(x, i, y * y + y)
+    return k.kernel
+
+
+def test_doubles_take_half_as_many_lanes() -> None:
+    for target in host_targets(LINUX, "znver4", AVX512):
+        assert target.suited(squares(F64)).width == target.width // 2
+        assert target.suited(squares(F32)) is target
+        assert target.suited(squares(U32)) is target
