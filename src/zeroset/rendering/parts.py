@@ -1,8 +1,8 @@
 """Parts of pixels that f32 could not clear, once more in f64.
 
 Beside cusps, nodes and multiple lines f is smaller than its rounding in f32 over several pixels, or than what its
-enclosure is too wide by, and every part of them may hold something. Here a part is drawn only if f64 cannot exclude a
-quarter of it near where f is flat across the part. What is drawn shows the side on which the pixel's own ray passes it.
+enclosure is too wide by, and every part of them may hold something. Here a part is drawn only if f64 cannot exclude one
+of its quarters. What is drawn shows the side on which the pixel's own ray passes it.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from zeroset.rendering.thin import (
     thin_answer,
 )
 from zeroset.rendering.view import frame_patch
-from zeroset.solve.beam import Thin, find_thin
+from zeroset.solve.beam import Thin, find_anything
 from zeroset.solve.shape import Shape
 from zeroset.solve.subject import Subject
 
 QUARTERS = 4
 """Pieces that a part is taken to."""
 WINDOW = 8.0
-"""Finest steps that are looked through quarter by quarter before the part is looked at as a whole again."""
+"""Finest steps that are looked through quarter by quarter before a part is looked at as a whole again."""
 MOST = 2000
 """Searches that a pixel may cost; what is left then is drawn."""
 
@@ -126,7 +126,7 @@ class _Pixel:
         self.window = self.finest * WINDOW
 
     def search(self, part: Value, now: _State) -> Thin:
-        """Look for something thin in one part, or for anything at all in a quarter of it."""
+        """Look for anything in one part, or in a quarter of it."""
         right, below = (x.convert(F64) for x in part_offset(part))
         aside = constant(0.25 * WIDTHS[IN_PARTS], F64)
         across = now.whole.select(0.0 * aside, (now.quarter & 1).ne(0).select(aside, -aside))
@@ -137,4 +137,4 @@ class _Pixel:
         patch = frame_patch(self._builder, self._subject, u, v, self._side * (WIDTHS[IN_PARTS] * HALF) * share)
         far = now.whole.select(self._far, self._far.minimum(now.t + self.window))
         step = now.whole.select(self.finest, self.window)
-        return find_thin(patch, now.t, far, step, self.finest * share, ~now.whole)
+        return find_anything(patch, now.t, far, step, self.finest * share)

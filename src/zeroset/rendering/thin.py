@@ -3,7 +3,7 @@
 Down to lines and points without any thickness, such as Steiner's axes (SN10 figure 6, K09 figure 6). The same kernel
 runs three times, each time on what the time before could not rule out: on blocks of 4x4 pixels of which a ray missed,
 on the pixels of those blocks, and on 4x4 parts of those pixels, whose enclosures are sharp. A pixel with a part left is
-drawn, as UNRESOLVED; on the CPU ``parts`` looks at the parts once more before.
+drawn, as UNRESOLVED; where the device has f64, ``parts`` looks at the parts once more before.
 """
 
 from __future__ import annotations

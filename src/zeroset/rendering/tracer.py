@@ -84,8 +84,7 @@ class Tracer:
         self.certified = method.certified
         self.beams = pixels and method.certified and not layered
         self._second = method.certified and device.supports(F64)
-        # A GPU cannot say without being waited for whether a list is empty, and would have to make every program.
-        self._again = self._second and self.beams and device.name != "gpu"
+        self._again = self._second and self.beams
         self._arrays = Arrays(device)
         shape = as_drawn(surface).shape
         self._parts = shape.parts
@@ -174,12 +173,14 @@ class Tracer:
         passes = [name for name in (DRAFT if draft else ORDER) if name in self._making]
         self._hurry = not self._drawn
         wanted = [*passes[:-1], *self._shared, *passes[-1:]]
+        more = [RARE] if self._again and not draft else []
         if self._device.name == "gpu":
+            # A GPU cannot say without being waited for whether a list is empty, so that it needs every program.
             # A draft: the driver compiles the first shader while the second is traced, one tracing at a time.
-            self._making.begin(wanted, 1 if draft else 2)
+            self._making.begin([*wanted, *more], 1 if draft else 2)
         elif self._drawn:
             # Who draws once more may do so often: then nothing that is still to come shall hold up a picture.
-            self._making.begin([*wanted, RARE] if self._again and not draft else wanted, AT_ONCE)
+            self._making.begin([*wanted, *more], AT_ONCE)
             self._making.improve()
         else:
             self._making.begin(wanted, AT_ONCE, (*SHORT, *self._shared) if hurry else (), SHORT)

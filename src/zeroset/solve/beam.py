@@ -128,21 +128,12 @@ class Thin(NamedTuple):
     steps: Value
 
 
-def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value, anything: Value | None = None) -> Thin:
+def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:
     """Look along a pixel's beam for a part of the surface that is thinner than the pixel.
 
     Where a step cannot be excluded, the derivatives of f across the pixel decide: near an ordinary silhouette one of
     them keeps its sign, mostly over a long stretch, and the pixel is left to its ray there; where both may vanish, down
     to a step of ``finest``, f has an extremum near zero inside the pixel, which is what a thin part is.
-
-    Args:
-        patch: the pixel's rays.
-        near: start of the search.
-        far: its end.
-        step: a first step.
-        finest: the shortest one.
-        anything: lanes that ask for whatever cannot be excluded by all means, be it an ordinary surface; None where all
-            ask for thin parts, and affine forms are enough to exclude by.
     """
 
     def running(a: Value, h: Value, found: Value, count: Value) -> Value:
@@ -151,14 +142,28 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value,
     def turn(a: Value, h: Value, found: Value, count: Value) -> tuple[Value, ...]:
         b = a + h
         point, t = patch.over(a, b)
-        excluded = patch.excludes(point) if anything is None else patch.excludes_well(point)
+        excluded = patch.excludes(point)
         asked = ~excluded & (h <= finest * EARLY)
-        if anything is not None:
-            asked = asked & ~anything
         (flat,) = if_(asked, lambda: (_flat_across(patch, point, t),), lambda: (True,))
         passed = excluded | ~flat
         thin = ~passed & (h <= finest)
         return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), thin, count + 1
+
+    a, h, found, count = while_(running, turn, near, step.maximum(finest), constant(False, BOOL), constant(0, U32))
+    return Thin(found, a + h * 0.5, count)
+
+
+def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:
+    """Look along a narrow beam for whatever cannot be excluded by all means, down to a step of ``finest``."""
+
+    def running(a: Value, h: Value, found: Value, count: Value) -> Value:
+        return ~found & (a < far) & (count < PATIENCE)
+
+    def turn(a: Value, h: Value, found: Value, count: Value) -> tuple[Value, ...]:
+        b = a + h
+        excluded = patch.excludes_well(patch.over(a, b)[0])
+        left = ~excluded & (h <= finest)
+        return excluded.select(b, a), excluded.select(h * 2.0, (h * 0.5).maximum(finest)), left, count + 1
 
     a, h, found, count = while_(running, turn, near, step.maximum(finest), constant(False, BOOL), constant(0, U32))
     return Thin(found, a + h * 0.5, count)
