@@ -60,7 +60,7 @@ class Meter:
 
         return self._timed(lambda: self._device.compile_cached(key, counted, quick))
 
-    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+    def begin_apart(self, recipes: Iterable[Recipe], perhaps: Iterable[Recipe] = ()) -> None:
         """Nothing: what another process makes could not be counted."""
 
     def _count(self) -> None:

@@ -9,7 +9,7 @@ more pictures follow, they are made again in the background, well, and take the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 
@@ -43,21 +43,25 @@ class Making:
         """The kernel of a program as it is traced."""
         return self._recipes[name][1]()
 
-    def begin(self, names: Iterable[str], at_once: int, quick: Iterable[str] = (), apart: Iterable[str] = ()) -> None:
+    def begin(self, names: Iterable[str], at_once: int, quick: Collection[str] = (), apart: Iterable[str] = ()) -> None:
         """Begin to make what is neither there nor coming.
 
         Args:
             names: of programs, in the order in which they are traced.
             at_once: how many may be under way.
             quick: those of them that are made in a hurry.
-            apart: those of them that another process may make.
+            apart: what another process may make: those of them, and then others that may be asked for later.
         """
         missing = [name for name in names if name not in self._programs and name not in self._coming]
         hurried = set(quick).intersection(missing)
         self._quick |= hurried
-        elsewhere = [name for name in apart if name in missing]
-        if elsewhere:
-            self._device.begin_apart(Recipe(*self._recipes[name], name in hurried) for name in elsewhere)
+        if missing:
+            known = [name for name in apart if name in self._recipes]
+            now, later = (
+                [Recipe(*self._recipes[name], name in quick) for name in known if (name in missing) is wanted]
+                for wanted in (True, False)
+            )
+            self._device.begin_apart(now, later)
         self._coming |= _side_by_side({name: partial(self._made, name, name in hurried) for name in missing}, at_once)
 
     def improve(self) -> None:

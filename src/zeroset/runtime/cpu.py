@@ -77,10 +77,10 @@ class CpuDevice(HostMemory):
         """The program under a key; see ``Device.compile_cached``."""
         return self._programs.under(key, build, quick)
 
-    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+    def begin_apart(self, recipes: Iterable[Recipe], perhaps: Iterable[Recipe] = ()) -> None:
         """Have another process make programs; see ``Device.begin_apart``. One core has no time for two."""
         if self.threads > 1:
-            self._programs.begin_apart(recipes)
+            self._programs.begin_apart(recipes, perhaps)
 
     def _write(self, kernel: Kernel) -> str:
         from zeroset.codegen import llvm

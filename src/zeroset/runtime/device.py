@@ -129,10 +129,14 @@ class Device(Protocol):
         """
         ...
 
-    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+    def begin_apart(self, recipes: Iterable[Recipe], perhaps: Iterable[Recipe] = ()) -> None:
         """Begin to make programs outside this process, where that can be; ``compile_cached`` then waits for them.
 
         It may do nothing; it must be called before others of the programs are begun in threads.
+
+        Args:
+            recipes: of what will be asked for.
+            perhaps: of what may be asked for.
         """
         ...
 
@@ -179,7 +183,7 @@ class HostMemory:
 
     largest = 2**40
 
-    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+    def begin_apart(self, recipes: Iterable[Recipe], perhaps: Iterable[Recipe] = ()) -> None:
         """Nothing."""
 
     def supports(self, type_: Type) -> bool:

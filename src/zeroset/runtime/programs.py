@@ -78,13 +78,21 @@ class Programs(Generic[P]):
         self._cache.link(f"{name}|{self._stamp}", digest)
         return self._remember(name, known)
 
-    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
-        """Have a twin make what is neither in memory nor on disk, where there can be one; ``under`` waits for it."""
+    def begin_apart(self, recipes: Iterable[Recipe], perhaps: Iterable[Recipe] = ()) -> None:
+        """Have a twin make what is neither in memory nor on disk, where there can be one; ``under`` waits for it.
+
+        Args:
+            recipes: what will be asked for.
+            perhaps: what may be: no reason to have a twin, but made when it has nothing else to do.
+        """
         if self._twin is not None or not self._cache.usable or not twin.possible():
             return
-        work = {r.key: partial(self.under, *r) for r in recipes if not self._has(r.key, r.quick)}
+        work, later = (
+            {r.key: partial(self.under, *r) for r in some if not self._has(r.key, r.quick)}
+            for some in (recipes, perhaps)
+        )
         if work:
-            self._twin = twin.Twin(work)
+            self._twin = twin.Twin(work, later)
 
     def _has(self, key: str, quick: bool) -> bool:
         """Whether a program is known under a key."""

@@ -17,11 +17,11 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import NoReturn
 
-MOST = 255
+Work = Callable[[], object]
 _allowed = False
 
 
@@ -41,16 +41,17 @@ class Twin:
 
     Args:
         work: what it does, by name, all of it side by side; 255 pieces at most.
+        later: what it does then, one after the other, until it is ended.
     """
 
-    def __init__(self, work: Mapping[str, Callable[[], object]]) -> None:
-        names = tuple(work)[:MOST]
-        self._left = dict(enumerate(names))
+    def __init__(self, work: Mapping[str, Work], later: Mapping[str, Work] | None = None) -> None:
+        later = later or {}
+        self._left = dict(enumerate((*work, *later)))
         self._reading = threading.Lock()
         self._pipe, said = os.pipe()
         self._process = os.fork()
         if not self._process:
-            _live([work[name] for name in names], said)
+            _live(tuple(work.values()), tuple(later.values()), said)
         os.close(said)
         atexit.register(self.end)
 
@@ -89,7 +90,7 @@ class Twin:
         atexit.unregister(self.end)
 
 
-def _live(work: list[Callable[[], object]], said: int) -> NoReturn:
+def _live(work: Sequence[Work], later: Sequence[Work], said: int) -> NoReturn:
     """The twin's life: the work, a byte for each piece that is done, and no word to anybody else."""
     try:
         # Ctrl-C reaches both processes, and only one of them has to explain it.
@@ -99,11 +100,13 @@ def _live(work: list[Callable[[], object]], said: int) -> NoReturn:
             os.dup2(nowhere, stream)
 
         def one(number: int) -> None:
-            work[number]()
+            (*work, *later)[number]()
             os.write(said, bytes([number]))
 
         with ThreadPoolExecutor(len(work)) as pool:
             pool.map(one, range(len(work)))
+        for number in range(len(work), len(work) + len(later)):
+            one(number)
     finally:
         # No handler of the other process's, and none of its open files, must be run or written twice.
         os._exit(0)

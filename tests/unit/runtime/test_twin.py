@@ -120,6 +120,21 @@ def test_it_ends_with_its_process(tmp_path: Path) -> None:
     assert not Path("/proc", (tmp_path / "begun").read_text()).exists()
 
 
+def test_what_may_be_asked_for_comes_last_and_holds_nobody_up(tmp_path: Path) -> None:
+    process(
+        tmp_path,
+        """
+        def note(name):
+            assert name != "b" or (folder / "a").exists()
+            (folder / name).write_text(str(os.getpid()))
+        made = twin.Twin({"a": lambda: note("a")}, {"b": lambda: note("b"), "c": lambda: time.sleep(3600)})
+        made.wait("b")
+        assert (folder / "b").exists()
+        """,
+    )
+    assert not Path("/proc", (tmp_path / "b").read_text()).exists()
+
+
 def test_a_program_comes_from_the_twin(tmp_path: Path) -> None:
     process(
         tmp_path,
@@ -132,7 +147,7 @@ def test_a_program_comes_from_the_twin(tmp_path: Path) -> None:
         makers = {int(path.name) for path in folder.iterdir() if path.name.isdecimal()}
         assert len(makers) == 1 and os.getpid() not in makers
         again = CpuDevice(threads=2, cache=Cache(folder / "cache"))
-        again.begin_apart([Recipe("key", build), Recipe("other", build, True)])
+        again.begin_apart([Recipe("key", build), Recipe("other", build, True)], [Recipe("third", build)])
         assert again._programs._twin is None, "what is on disk need not be made"
         """,
         COMMON + KERNEL,

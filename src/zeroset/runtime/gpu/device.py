@@ -99,7 +99,7 @@ class GpuDevice:
         """The program under a key; see ``Device.compile_cached``. Drivers know no hurry."""
         return self._programs.under(key, build)
 
-    def begin_apart(self, recipes: Iterable[Recipe]) -> None:
+    def begin_apart(self, recipes: Iterable[Recipe], perhaps: Iterable[Recipe] = ()) -> None:
         """Nothing: pipelines belong to this process."""
 
     def _write(self, kernel: Kernel) -> str:
