@@ -121,11 +121,12 @@ class Chain:
         """The next thing along a ray."""
         subject = self._response.subject
         farthest = self._builder.uniform("farthest", F32)
+        leaving = now.left.ne(self._builder.uniform("depth", U32))
 
         def ahead(problem: Problem) -> Answer:
             # A beam has brought its rays close to what they meet; others have to get away from where they begin.
             near = self._step is not None and not can_clip(problem, LOW)
-            return stride(problem if near else clipped(problem))
+            return stride(problem if near else clipped(problem), leaving)
 
         answer = subject.nearest(lambda body: problem_on(body, now.ray, now.start, farthest, self._step), ahead)
         hit = answer.status.ne(MISS)

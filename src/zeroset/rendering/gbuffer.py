@@ -118,11 +118,16 @@ def behind(answer: Answer) -> Value:
     return abs(end).fma(2.0**-22, end)
 
 
-def write(builder: KernelBuilder, subject: Subject, lane: Value, ray: Ray, answer: Answer, ends: Ends = ()) -> None:
-    """Store an answer, with the normal where something was found; ``ends``: and these places around it."""
+def write_ends(builder: KernelBuilder, lane: Value, answer: Answer, ends: Ends) -> None:
+    """Store where rays that go on may do so."""
     places = {CLEAR: answer.clear.convert(F32), END: behind(answer)}
     for name in ends:
         store(builder.buffer(name, F32, writable=True), lane, places[name])
+
+
+def write(builder: KernelBuilder, subject: Subject, lane: Value, ray: Ray, answer: Answer, ends: Ends = ()) -> None:
+    """Store an answer, with the normal where something was found; ``ends``: and these places around it."""
+    write_ends(builder, lane, answer, ends)
     buffers = {name: builder.buffer(name, type_, writable=True) for name, type_ in fields(subject.shape.parts).items()}
 
     names = NORMAL if subject.shape.parts == 1 else (*NORMAL, PART)

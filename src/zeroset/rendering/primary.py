@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load, store
 from zeroset.rendering.buffers import SECOND, Ends
-from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write
+from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write, write_ends
 from zeroset.rendering.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
 from zeroset.rendering.view import frame_patch, pixel_ray
 from zeroset.scene.clip import clip
@@ -102,18 +102,20 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), bea
         near, far = t_range(builder)
         answer = subject.nearest(lambda body: in_doubles(problem_on(body, ray, near, far, None), clear), stride)
         # What f32 has proven stays. Even where f64 leaves it open, it comes closer to a double root than f32 could.
-        proven = load(builder.buffer("status", U32, writable=True), lane).eq(HIT) & answer.status.ne(HIT)
+        proven = load(builder.buffer("status", U32, writable=True), lane).eq(HIT)
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
         better = replace(answer, steps=spent)
-        if_(~proven, lambda: write(builder, subject, lane, exact_ray(ray), better, ends))
+        if_(~proven | answer.status.eq(HIT), lambda: write(builder, subject, lane, exact_ray(ray), better))
+        # Rays that go on do so in f32, which needs the room that it had left around its own find.
+        if_(~proven, lambda: write_ends(builder, lane, better, ends))
         if beams:
             ask_for_thin(builder, lane, answer.status.eq(MISS))
     return builder.kernel
 
 
-def stride(problem: Problem) -> Answer:
-    """The search that all but the primary rays take, whatever the method."""
-    return search(problem, automatic_system(problem.field, problem.fmt), Striding())
+def stride(problem: Problem, leaving: Value | None = None) -> Answer:
+    """The search that all but the primary rays take; ``leaving``: lanes whose rays come from a surface."""
+    return search(problem, automatic_system(problem.field, problem.fmt), Striding(), leaving=leaving)
 
 
 def exact_ray(ray: Ray) -> Ray:

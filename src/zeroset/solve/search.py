@@ -25,6 +25,8 @@ from zeroset.solve.walk import State, Walk
 
 ZONE = 3
 """How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
+GRAZING = 48
+"""Evaluations that getting away from the surface that a ray comes from may take."""
 
 
 def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
@@ -60,7 +62,12 @@ class _Zone:
 
 
 def search(
-    problem: Problem, system: Any, walk: Walk, wanted: Value | None = None, delta: Value | None = None
+    problem: Problem,
+    system: Any,
+    walk: Walk,
+    wanted: Value | None = None,
+    delta: Value | None = None,
+    leaving: Value | None = None,
 ) -> Answer:
     """The first root along the ray, with proof; see the module's text.
 
@@ -71,6 +78,8 @@ def search(
         wanted: lanes that shall search; the others do nothing.
         delta: where above 0, an interval counts as narrowest only once f is enclosed to this width (K09 6.1.2), or
             the walk cannot go deeper.
+        leaving: lanes whose ray comes from a surface: what cannot be told from its beginning, for f has had no certain
+            sign since then, is that surface and is passed by.
     """
     first = walk.start(problem)
     n = len(first)
@@ -85,7 +94,8 @@ def search(
 
     def turn(*state: Value) -> State:
         zone = _Zone(*state[n + 1 : n + 5], *state[n + 11 :])
-        found, place, zone = _turn(problem, system, walk, delta, state[:n], zone)
+        passing = None if leaving is None else leaving & (state[n + 7] < GRAZING)
+        found, place, zone = _turn(problem, system, walk, delta, state[:n], zone, passing)
         over = found.status.ne(MISS) | walk.ended(problem, place)
         return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, *found.rest, *zone.parts()
 
@@ -107,7 +117,13 @@ class _Found:
 
 
 def _turn(
-    problem: Problem, system: Any, walk: Walk, delta: Value | None, place: State, zone: _Zone
+    problem: Problem,
+    system: Any,
+    walk: Walk,
+    delta: Value | None,
+    place: State,
+    zone: _Zone,
+    passing: Value | None,
 ) -> tuple[_Found, State, _Zone]:
     """One evaluation and what follows from it."""
     a, b = walk.interval(problem, place)
@@ -125,6 +141,11 @@ def _turn(
     # A stretch with a certain sign behind the zone closes it: all of [a, b], or [a, left).
     closes = in_zone & ((excluded & ~skipped) | cut)
     joins = narrowest & ~closes
+    if passing is not None:
+        # A sign that is certain for less than the tolerance may be that beside the surface that the ray comes from.
+        begins = passing & zone.sign.eq(0.0) & (seen.left - a < problem.tolerance)
+        joins = joins & (~begins | proven)
+        cut = cut & ~begins
     start = in_zone.select(zone.start, seen.left)
     whole = (~in_zone | zone.whole) & seen.defined
     sign = cut.select(seen.before, zone.sign)

@@ -240,3 +240,16 @@ def test_materials_that_cannot_be(name: str) -> None:
     for value in (-0.1, 1.1, float("nan")):
         with pytest.raises(ParameterError, match=name):
             zs.Material(**{name: value})
+
+
+def test_a_surface_that_a_ray_comes_from_is_not_met_again() -> None:
+    """A ball has two layers wherever it is seen; at its outline f is hardly more than rounding for a while."""
+    black = zs.Material(front=(0, 0, 0), back=(0, 0, 0), ambient=1, diffuse=0, specular=0, opacity=0.5)
+    ball = zs.surface("x^2 + y^2 + z^2 = 1", bounds=1.05)
+    camera = zs.Camera(eye=(3, -2, 1.5), target=(0, 0, 0), fov=35)
+    image = zs.render(ball, 256, camera=camera, material=black, background=(1, 1, 1), depth=8, device="cpu")
+    values, counts = np.unique(image.pixels[..., 0], return_counts=True)
+    found = dict(zip(values.tolist(), counts.tolist(), strict=True))
+    # White, and a quarter of it in sRGB.
+    assert found.pop(255) + found.pop(137) >= 256 * 256 - 30
+    assert min(found, default=99) >= 99, "four layers"
