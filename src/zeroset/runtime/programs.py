@@ -92,7 +92,9 @@ class Programs(Generic[P]):
             for some in (recipes, perhaps)
         )
         if work:
-            self._twin = twin.Twin(work, later)
+            # Where the system allows no further process, everything is made here.
+            with contextlib.suppress(OSError):
+                self._twin = twin.Twin(work, later)
 
     def _has(self, key: str, quick: bool) -> bool:
         """Whether a program is known under a key."""

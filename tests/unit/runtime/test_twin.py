@@ -177,6 +177,22 @@ def test_without_a_twin_programs_are_made_here(tmp_path: Path, setting: str) -> 
     )
 
 
+def test_a_system_that_allows_no_further_process(tmp_path: Path) -> None:
+    process(
+        tmp_path,
+        """
+        def full():
+            raise BlockingIOError("no more processes")
+        twin.allow()
+        os.fork = full
+        device = CpuDevice(threads=2, cache=Cache(folder / "cache"))
+        device.begin_apart([Recipe("key", build)])
+        assert run(device.compile_cached("key", build)) == [2.0] * 3
+        """,
+        COMMON + KERNEL,
+    )
+
+
 def test_what_the_twin_could_not_make_is_made_here(tmp_path: Path) -> None:
     process(
         tmp_path,
