@@ -171,7 +171,7 @@ class Tracer:
             hurry: whether a first picture is so small that compiling for it takes longer than drawing it.
         """
         passes = [name for name in (DRAFT if draft else ORDER) if name in self._making]
-        self._hurry = not self._drawn
+        self._hurry = hurry and not self._drawn
         wanted = [*passes[:-1], *self._shared, *passes[-1:]]
         more = [RARE] if self._again and not draft else []
         if self._device.name == "gpu":
