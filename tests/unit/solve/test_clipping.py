@@ -12,7 +12,7 @@ from flint import fmpq, fmpq_poly
 
 import zeroset as zs
 from zeroset.arith import NotPolynomialError
-from zeroset.kernel import BOOL, F32, U32, KernelBuilder, constant, load, store
+from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Value, constant, load, store
 from zeroset.runtime import get_device
 from zeroset.solve import clipping
 from zeroset.solve.clipping import can_clip, clipped, looked_over
@@ -35,42 +35,50 @@ FORMULAS: dict[str, Callable[..., Any]] = {
 }
 
 
-def clip(formula: Callable[..., Any] | str, origins: Array, directions: Array) -> tuple[Array, Array]:
-    """Where a search may start along each ray from 0 to FAR, and whether it need not."""
+Named = dict[str, Value]
+
+
+def along(
+    formula: Callable[..., Any] | str, origins: Array, directions: Array, ask: Callable[[Problem], Named]
+) -> dict[str, Array]:
+    """What is to be said of the stretch from 0 to FAR along each ray, by name."""
     surface = zs.surface(formula, bounds=10)
-    with KernelBuilder("clip") as builder:
+    count = len(origins)
+    buffers: dict[str, Array] = {f"o{axis}": np.ascontiguousarray(origins[:, i]) for i, axis in enumerate("xyz")}
+    buffers |= {f"d{axis}": np.ascontiguousarray(directions[:, i]) for i, axis in enumerate("xyz")}
+    with KernelBuilder("along") as builder:
         lane = builder.index()
         o, d = (tuple(load(builder.buffer(f"{n}{axis}", F32), lane) for axis in "xyz") for n in "od")
         far, tolerance = constant(FAR, F32), constant(TOLERANCE, F32)
         problem = Problem(Lowered(surface.field, builder), Ray(o, d), constant(0.0, F32), far, tolerance, far)
-        ahead = clipped(problem)
-        store(builder.buffer("start", F32, writable=True), lane, ahead.t0)
-        store(builder.buffer("none", U32, writable=True), lane, (ahead.t0 >= far).convert(U32))
-    count = len(origins)
-    buffers: dict[str, Array] = {"start": np.zeros(count, np.float32), "none": np.zeros(count, np.uint32)}
-    buffers |= {f"o{axis}": np.ascontiguousarray(origins[:, i]) for i, axis in enumerate("xyz")}
-    buffers |= {f"d{axis}": np.ascontiguousarray(directions[:, i]) for i, axis in enumerate("xyz")}
+        said = ask(problem)
+        for name, value in said.items():
+            store(builder.buffer(name, value.type, writable=True), lane, value)
+            buffers[name] = np.zeros(count, value.type.dtype)
     get_device("cpu").compile(builder.kernel).run(count, {}, buffers)
-    return buffers["start"].astype(float), buffers["none"] != 0
+    return {name: buffers[name] for name in said}
+
+
+def clip(formula: Callable[..., Any] | str, origins: Array, directions: Array) -> tuple[Array, Array]:
+    """Where a search may start along each ray from 0 to FAR, and whether it need not."""
+
+    def ask(problem: Problem) -> Named:
+        start = clipped(problem).t0
+        return {"start": start, "none": (start >= FAR).convert(U32)}
+
+    said = along(formula, origins, directions, ask)
+    return said["start"].astype(float), said["none"] != 0
 
 
 def look_over(formula: Callable[..., Any] | str, origins: Array, directions: Array) -> tuple[Array, Array]:
     """Whether there certainly is nothing along each ray from 0 to FAR, and whether there certainly is something."""
-    surface = zs.surface(formula, bounds=10)
-    with KernelBuilder("look_over") as builder:
-        lane = builder.index()
-        o, d = (tuple(load(builder.buffer(f"{n}{axis}", F32), lane) for axis in "xyz") for n in "od")
-        far, tolerance = constant(FAR, F32), constant(TOLERANCE, F32)
-        problem = Problem(Lowered(surface.field, builder), Ray(o, d), constant(0.0, F32), far, tolerance, far)
+
+    def ask(problem: Problem) -> Named:
         rest, hidden = looked_over(problem, constant(True, BOOL))
-        store(builder.buffer("none", U32, writable=True), lane, (rest.t0 >= far).convert(U32))
-        store(builder.buffer("hidden", U32, writable=True), lane, hidden.convert(U32))
-    count = len(origins)
-    buffers: dict[str, Array] = {"none": np.zeros(count, np.uint32), "hidden": np.zeros(count, np.uint32)}
-    buffers |= {f"o{axis}": np.ascontiguousarray(origins[:, i]) for i, axis in enumerate("xyz")}
-    buffers |= {f"d{axis}": np.ascontiguousarray(directions[:, i]) for i, axis in enumerate("xyz")}
-    get_device("cpu").compile(builder.kernel).run(count, {}, buffers)
-    return buffers["none"] != 0, buffers["hidden"] != 0
+        return {"none": (rest.t0 >= FAR).convert(U32), "hidden": hidden.convert(U32)}
+
+    said = along(formula, origins, directions, ask)
+    return said["none"] != 0, said["hidden"] != 0
 
 
 def first_root(formula: Callable[..., Any], origin: Array, direction: Array) -> float:
