@@ -14,6 +14,7 @@ from zeroset.arith import affine_arithmetic as arithmetic
 from zeroset.arith import affine_choice as choice
 from zeroset.arith import affine_functions as functions
 from zeroset.arith import contraction
+from zeroset.arith.affine_curved import bend_reach
 from zeroset.arith.budget import MARGIN, Budget, repaid
 from zeroset.arith.contraction import Contraction
 from zeroset.arith.flags import TOTAL, Flags
@@ -30,10 +31,12 @@ from zeroset.arith.scalar import (
     gt,
     is_literal,
     is_zero,
+    lt,
     maximum,
     minimum,
     not_,
     or_,
+    select,
     sub,
 )  # fmt: skip
 
@@ -143,17 +146,34 @@ class Affine(Number):
         """How far the number may be from its centre: the radius with the roundings of its arithmetic repaid."""
         return repaid(self.fmt, self.radius(), self.budget.depth + len(self.terms))
 
+    def _reaches(self) -> tuple[Scalar, Scalar]:
+        """How far the number may be below and above its centre, before repayment: a bend lifts one of the two."""
+        plain = self.radius()
+        if not self._system.curved or is_zero(self.terms[-1]):
+            return plain, plain
+        *others, line, bend = self.terms
+        lifted = bend_reach(line, bend)
+        for rest in (*others, self.error):
+            lifted = add(absolute(rest), lifted)
+        up = gt(bend, 0.0)
+        return select(up, lifted, plain), select(up, plain, lifted)
+
     def form_range(self) -> tuple[Scalar, Scalar]:
         """Bounds from the form alone, ``interval`` without the interval that goes along."""
         if self.is_scalar:
             return self.centre, self.centre
-        reach = self.reach()
+        below, above = self._reaches()
+        depth = self.budget.depth + len(self.terms) + (2 if self._system.curved else 0)
         if self.budget.credit < MARGIN or self.budget.slack < 4:
             # Pays for the two roundings below: a share of |c|, and one of the radius by way of its depth.
-            reach = repaid(self.fmt, self.radius(), self.budget.depth + len(self.terms) + 3)
-            reach = fma(absolute(self.centre), 2 * self.fmt.eps, reach + self.fmt.tiny)
+            below, above = (
+                fma(absolute(self.centre), 2 * self.fmt.eps, repaid(self.fmt, reach, depth + 3) + self.fmt.tiny)
+                for reach in (below, above)
+            )
+        else:
+            below, above = (repaid(self.fmt, reach, depth) for reach in (below, above))
         # clamp keeps its second operand for a NaN, which makes a form that overflowed the whole line.
-        low, high = sub(self.centre, reach), add(self.centre, reach)
+        low, high = sub(self.centre, below), add(self.centre, above)
         big = self.fmt.big
         return clamp(self.fmt, low), maximum(minimum(high, big), -big)
 
@@ -167,7 +187,11 @@ class Affine(Number):
 
     def contains_zero(self) -> Mask:
         """False only where f certainly has no zero; true for a form that overflowed."""
-        excluded = or_(gt(absolute(self.centre), self.reach()), self.empty)
+        if self._system.curved:
+            low, high = self.form_range()
+            excluded = or_(or_(gt(low, 0.0), lt(high, 0.0)), self.empty)
+        else:
+            excluded = or_(gt(absolute(self.centre), self.reach()), self.empty)
         if self.bounds is not None:
             excluded = or_(excluded, not_(self.bounds.contains_zero()))
         return not_(excluded)

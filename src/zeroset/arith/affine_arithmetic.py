@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from zeroset.arith import affine_curved as curved
 from zeroset.arith import scalar as s
 from zeroset.arith.budget import MARGIN, STOCK, Budget, bought, funded, quanta
 from zeroset.arith.number import Number
@@ -138,8 +139,12 @@ def _product(a: Affine, b: Affine) -> Affine:
     true errors by k_a eps M_a (B + radius_b) + k_b eps M_b (A + U) and more, that is by (k_a + k_b) eps M_a M_b: the
     credits add up.
     """
-    enough = a.budget.credit + b.budget.credit >= MARGIN * _PRODUCT
-    a, b = stocked(a, 0.0 if enough else MARGIN), stocked(b, 0.0 if enough else MARGIN)
+    price = curved.PRICE if a.system.curved else _PRODUCT
+    enough = a.budget.credit + b.budget.credit >= MARGIN * price
+    each = 0.0 if enough else MARGIN * price / 2
+    a, b = stocked(a, each), stocked(b, each)
+    if a.system.curved:
+        return a.make(*curved.product(a, b), a.flags.meet(b.flags), _beside(a, b, "mul"))
     centre = s.mul(a.centre, b.centre)
     terms = tuple(fma(a.centre, v, s.mul(b.centre, u)) for u, v in zip(a.terms, b.terms, strict=True))
     error = fma(a.radius(), b.radius(), a.fmt.tiny)
@@ -164,7 +169,10 @@ def sqr(a: Affine) -> Affine:
     """
     if a.is_scalar:
         return _scaled(a, a)
-    a = stocked(a, MARGIN * _SQUARE / 1.9)
+    bounds = None if a.bounds is None else a.interval().sqr()
+    a = stocked(a, curved.ENOUGH if a.system.curved else MARGIN * _SQUARE / 1.9)
+    if a.system.curved:
+        return a.make(*curved.square(a), bounds=bounds)
     fmt, budget, twice = a.fmt, a.budget, a.centre + a.centre
     radius = a.radius()
     square = radius * radius
@@ -174,7 +182,6 @@ def sqr(a: Affine) -> Affine:
     after = Budget(1.9 * budget.credit, 0.9 * quanta(fmt), 2 * budget.depth + 2 * len(a.terms) + 6)
     terms = tuple(s.mul(twice, u) for u in a.terms)
     error, after = funded(fmt, centre, terms, error, after, _SQUARE)
-    bounds = None if a.bounds is None else a.interval().sqr()
     return a.make(centre, terms, error, after, bounds=bounds)
 
 

@@ -20,17 +20,22 @@ class AffineSystem(System[Affine]):
         fmt: format of the scalars.
         symbols: how many shared symbols a form has: 1 for a ray, 3 for a beam.
         intersect: whether an interval goes along with each form.
+        curved: whether a form keeps T2 of its last symbol too, as one more term; see ``affine_curved``.
 
     Attributes:
         symbols: as given.
         intersect: as given.
+        curved: as given.
+        width: how many terms a form has.
         intervals: the system of the ranges.
     """
 
-    def __init__(self, fmt: Format, symbols: int = 1, intersect: bool = False) -> None:
+    def __init__(self, fmt: Format, symbols: int = 1, intersect: bool = False, curved: bool = False) -> None:
         self._fmt = fmt
         self.symbols = symbols
         self.intersect = intersect
+        self.curved = curved
+        self.width = symbols + curved
         self.intervals = IntervalSystem(fmt)
 
     @property
@@ -43,22 +48,22 @@ class AffineSystem(System[Affine]):
         middle = self._fmt.round(0.5 * lo + 0.5 * hi)
         widest = max(sub(self._fmt.up(hi), middle), sub(middle, self._fmt.down(lo)))
         error = 0.0 if lo == hi == middle else self._fmt.up(widest)
-        return self._with_bounds(self.form(middle, (0.0,) * self.symbols, error), self.intervals.constant(lo, hi))
+        return self._with_bounds(self.form(middle, (0.0,) * self.width, error), self.intervals.constant(lo, hi))
 
     def exact(self, value: Scalar) -> Affine:
         """A run-time scalar without error."""
-        return self.form(value, (0.0,) * self.symbols)
+        return self.form(value, (0.0,) * self.width)
 
     def enclose(self, value: Scalar, error: Scalar) -> Affine:
         """A run-time scalar with its error."""
         if is_zero(error):
             return self.exact(value)
-        form = self.form(value, (0.0,) * self.symbols, error)
+        form = self.form(value, (0.0,) * self.width, error)
         return self._with_bounds(form, self.intervals.enclose(value, error))
 
     def symbol(self, index: int, centre: Scalar, radius: Scalar) -> Affine:
         """centre + radius * e_index, exactly; index counts from 0."""
-        return self.form(centre, tuple(radius if i == index else 0.0 for i in range(self.symbols)))
+        return self.form(centre, tuple(radius if i == index else 0.0 for i in range(self.width)))
 
     def form(self, centre: Scalar, terms: tuple[Scalar, ...], error: Scalar = 0.0) -> Affine:
         """centre + sum terms_i e_i within ``error``, all taken as exact."""
@@ -68,11 +73,11 @@ class AffineSystem(System[Affine]):
         """The form without terms that holds an interval."""
         fmt, lo, hi = self._fmt, interval.lo, interval.hi
         if lo is hi:
-            form = self.form(lo, (0.0,) * self.symbols)
+            form = self.form(lo, (0.0,) * self.width)
         else:
             centre = 0.5 * lo + 0.5 * hi
             error = maximum(hi - centre, centre - lo) + fmt.tiny
-            form = self.form(centre, (0.0,) * self.symbols, error)
+            form = self.form(centre, (0.0,) * self.width, error)
             form.budget = Budget(slack=0.9 * quanta(fmt), depth=2)
         form.flags = interval.flags
         return self._with_bounds(form, interval)
@@ -94,7 +99,7 @@ class AffineSystem(System[Affine]):
 
     def rebuild(self, components: list[Scalar]) -> Affine:
         """The form of these components."""
-        n = self.symbols
+        n = self.width
         flags = Flags(components[-2], components[-1])
         bounds = Interval(self.intervals, components[n + 2], components[n + 3], flags) if self.intersect else None
         return Affine(self, components[0], tuple(components[1 : n + 1]), components[n + 1], Budget(), flags, bounds)

@@ -19,6 +19,8 @@ from zeroset.arith.scalar import (
     fma,
     gt,
     is_literal,
+    is_zero,
+    le,
     maximum,
     minimum,
     not_,
@@ -28,6 +30,7 @@ from zeroset.arith.scalar import (
 
 if TYPE_CHECKING:
     from zeroset.arith.affine import Affine
+    from zeroset.arith.format import Format
 
 __all__ = ["Contraction", "contract"]
 
@@ -53,21 +56,49 @@ class Contraction(NamedTuple):
 def contract(form: Affine, symbol: int = 0) -> Contraction:
     """The zeros of a form along one symbol; the other symbols count as error."""
     fmt, u, c = form.fmt, form.terms[symbol], form.centre
+    curved = form.system.curved and symbol == len(form.terms) - 2
+    bend = form.terms[-1] if curved else 0.0
     others = form.error
-    for index, term in enumerate(form.terms):
+    for index, term in enumerate(form.terms[:-1] if curved else form.terms):
         others = others if index == symbol else add(absolute(term), others)
     reach = repaid(fmt, others, form.budget.depth + len(form.terms) + 3)
     slope = absolute(u)
     excluded = not_(form.contains_zero())
-    # The difference below is rounded by eps*|u| + eps*reach; the latter is in the depth repaid above.
-    crosses = and_(gt(sub(slope, fma(slope, 2 * fmt.eps, reach)), absolute(c)), form.defined)
-    low, high = _strip(form, u, reach)
+    # The differences below are rounded by eps*|u| + eps*reach, which is in the depth repaid above, and eps*|c + bend|.
+    margin = sub(slope, fma(slope, 2 * fmt.eps, reach))
+    ends = c if is_zero(bend) else fma(absolute(c) + absolute(bend), 2 * fmt.eps, absolute(c + bend))
+    crosses = and_(gt(margin, absolute(ends)), form.defined)
+    if is_zero(bend):
+        low, high = _strip(fmt, c, u, reach)
+    else:
+        low, high = _bent_strip(fmt, c, u, bend, reach)
     return Contraction(low, high, excluded, crosses, gt(u, 0.0))
 
 
-def _strip(form: Affine, u: Scalar, reach: Scalar) -> tuple[Scalar, Scalar]:
+def _bent_strip(fmt: Format, c: Scalar, u: Scalar, bend: Scalar, reach: Scalar) -> tuple[Scalar, Scalar]:
+    """The strip around the line, and within that, expanded about its middle, the one around the tangent there.
+
+    With e = m + w s, T2(e) is 2 m**2 - 1 + w**2 + 4 m w s + w**2 (2 s**2 - 1), the last within w**2.
+    """
+    size = absolute(bend)
+    low, high = _strip(fmt, c, u, fma(size + reach, 4 * fmt.eps, size + reach))
+    middle, half = 0.5 * (low + high), fma(high - low, 0.5 * (1 + 8 * fmt.eps), 4 * fmt.eps)
+    square, around = half * half, middle * middle
+    shift = fma(around, 2.0, square - 1.0)
+    centre = fma(bend, shift, fma(u, middle, c))
+    slope = fma(bend, 4.0 * middle, u)
+    # |shift| <= 2 and |4 m| <= 4: what is above and slope * half are rounded by less than this, underflow included.
+    rounded = fma(size, 32.0 * fmt.eps, fma(absolute(c) + absolute(u), 8.0 * fmt.eps, fmt.tiny))
+    inner_low, inner_high = _strip(fmt, centre, slope * half, fma(size, square, reach + rounded) * (1 + 16 * fmt.eps))
+    # Where the tangent falls as the line rises, or nothing is left, which the range has not seen, the line has to do.
+    usable = and_(gt(slope * u, 0.0), le(inner_low, inner_high))
+    inner_low = maximum(fma(inner_low, half, middle) - 4 * fmt.eps, low)
+    inner_high = minimum(fma(inner_high, half, middle) + 4 * fmt.eps, high)
+    return select(usable, inner_low, low), select(usable, inner_high, high)
+
+
+def _strip(fmt: Format, c: Scalar, u: Scalar, reach: Scalar) -> tuple[Scalar, Scalar]:
     """[-1, 1] cut to (-c +- reach)/u, rounded outward."""
-    fmt, c = form.fmt, form.centre
     if is_literal(u) and u == 0:
         return -1.0, 1.0
     # Slopes within rounding and underflow of nothing tell nothing: there the quotients would overflow.

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from zeroset.kernel import F32, U32, Value, constant, for_, load
+from zeroset.kernel import F32, U32, Value, constant, for_, if_, load
 from zeroset.rendering.buffers import LIGHT_WORDS, LIGHTS, TEXELS
 from zeroset.rendering.materials import material_at
 from zeroset.rendering.shade import by_value
@@ -138,9 +138,10 @@ class Response:
         data = self.builder.buffer(LIGHTS, F32)
 
         def one(i: Value, *color: Value) -> tuple[Value, ...]:
-            x, y, z, near, *tint = (load(data, i * LIGHT_WORDS + k) for k in range(LIGHT_WORDS - 1))
+            x, y, z, near, *tint, shorter = (load(data, i * LIGHT_WORDS + k) for k in range(LIGHT_WORDS))
             toward = [p - q * near for p, q in zip((x, y, z), point, strict=True)]
-            light = normalised(toward)
+            # Far away it is in the same direction from everywhere, and how long the vector is, is known.
+            light = if_(near > 0.0, lambda: tuple(normalised(toward)), lambda: tuple(p * shorter for p in (x, y, z)))
             if self.optics.shadows:
                 facing = dot(seen.normal, light) > 0.0
                 reached = way_is_free(self.subject, point, toward, facing)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -123,7 +124,8 @@ class Illumination:
 
     Attributes:
         shadows: the shadow pass's uniforms for each light; empty where there are no shadows.
-        lights: eight numbers for each light, for rays beyond the first hit.
+        lights: eight numbers for each light, for rays beyond the first hit: its place, or a vector towards it; 1 or 0
+            for which of the two; its colour; and what makes the vector one of length 1.
         texels: the cube map all around, or None.
         tolerance: world length to which shadows are found.
         depth: how many surfaces a ray may meet after the first.
@@ -144,7 +146,7 @@ class Illumination:
         """The light of a scene that is seen along a camera's rays."""
         places = shadow_uniforms(scene.lights, rays, scene.surface.fitted, tolerance)
         rows = [
-            [*(place[f"light_{axis}"] for axis in "xyzw"), *light.color, 0.0]
+            [*(place[f"light_{axis}"] for axis in "xyzw"), *light.color, 1.0 / _length(place)]
             for place, light in zip(places, scene.lights, strict=True)
         ]
         lights = np.asarray(rows, np.float32).reshape(-1)
@@ -179,6 +181,11 @@ def shadow_uniforms(lights: Sequence[Light], rays: Rays, bounds: Bounds, toleran
         named = {f"light_{axis}": float(v) for axis, v in zip("xyz", place, strict=True)}
         made.append(named | {"light_w": float(near), "shadow_tolerance": tolerance, "bit": 1 << i})
     return made
+
+
+def _length(place: Mapping[str, float]) -> float:
+    """Length of the vector to a light; 1 for one that is where the axes meet."""
+    return math.hypot(*(place[f"light_{axis}"] for axis in "xyz")) or 1.0
 
 
 def _world(light: Light, rays: Rays) -> tuple[float, ...]:

@@ -10,11 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from zeroset.kernel import Value
+from zeroset.kernel import Value, if_
 from zeroset.shade.albedo import Albedo, two_sided
 from zeroset.shade.power import shine
 
 Color = tuple[Value, Value, Value]
+_FAINT = 22.0
+"""Of q <= 1 - 22/s, q**(s/2) is less than 2**-15: no highlight that anybody sees, and not worth a power."""
 
 
 def dot(a: Sequence[Value], b: Sequence[Value]) -> Value:
@@ -77,7 +79,8 @@ class Face:
         along = (cosine + dot(self.normal, self.toward_eye)).maximum(0.0)
         square = along * along / dot(light, self.toward_eye).fma(2.0, 2.0).maximum(1e-6)
         shininess, specular, diffuse = (self.uniform(name) for name in ("shininess", "specular", "diffuse"))
-        highlight = (lambert > 0.0).select(shine(square, shininess * 0.5) * specular, 0.0)
+        seen = (lambert > 0.0) & (square > 1.0 - _FAINT / shininess)
+        (highlight,) = if_(seen, lambda: (shine(square, shininess * 0.5) * specular,), lambda: (0.0,))
         r, g, b = (c + t * (k * diffuse * lambert + highlight) for c, k, t in zip(color, self.base, tint, strict=True))
         return r, g, b
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from zeroset.arith import AffineSystem
 from zeroset.kernel import BOOL, U32, Value, constant, while_
 from zeroset.solve.compound import Turn, look_at, note_parts
 from zeroset.solve.look import Interval, Look, read, stretch
@@ -27,6 +28,8 @@ ZONE = 3
 """How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
 GRAZING = 48
 """Evaluations that getting away from the surface that a ray comes from may take."""
+BLUNT = 0.25
+"""What a cut leaves of an interval around a simple root is less; around a triple one, a third, where bends are kept."""
 
 
 def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
@@ -41,6 +44,11 @@ def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
 def _differ(problem: Problem, a: Value, b: Value) -> Value:
     """Whether two signs, or two labels of isovalues, are both known and not the same."""
     return a.ne(0.0) & b.ne(0.0) & a.ne(b) if problem.levels else a * b < 0.0
+
+
+def _bends(system: Any) -> bool:
+    """Whether forms keep their bend: then a slope proves even a triple root, where the gradient vanishes."""
+    return isinstance(system, AffineSystem) and system.curved
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,27 +101,28 @@ def search(
         return state[n]
 
     def turn(*state: Value) -> State:
-        zone = _Zone(*state[n + 1 : n + 5], *state[n + 11 :])
+        zone = _Zone(*state[n + 1 : n + 5], *state[n + 12 :])
         passing = None if leaving is None else leaving & (state[n + 7] < GRAZING)
         found, place, zone = _turn(problem, system, walk, delta, state[:n], zone, passing)
         over = found.status.ne(MISS) | walk.ended(problem, place)
-        return *place, ~over, *zone.components(), found.status, found.t, state[n + 7] + 1, *found.rest, *zone.parts()
+        told = found.status, found.t, state[n + 7] + 1, *found.rest
+        return *place, ~over, *zone.components(), *told, *zone.parts()
 
-    begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0), problem.t0)
+    begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0), problem.t0, constant(False, BOOL))
     state = while_(running, turn, *first, alive, *zone.components(), *begin, *zone.parts())
     # Where the slope is known it leaves little of the narrowest intervals that can hold the root.
-    blunt = (state[n + 2] > 0) & (state[n + 10] - state[n + 8] > problem.tolerance * 0.5)
-    status, t, steps, clear, side, end, *mark = state[n + 5 :]
+    status, t, steps, clear, side, end, blunt, *mark = state[n + 5 :]
+    blunt = blunt | ((state[n + 2] > 0) & (end - clear > problem.tolerance * (BLUNT if _bends(system) else 0.5)))
     return Answer(t, status, steps, clear, side, end, mark[0] if mark else None, blunt)
 
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """What a turn found; the rest is where it may begin, the sign before that, and where it ends."""
+    """What a turn found; the rest is where it may begin, the sign before that, where it ends, and how bluntly."""
 
     status: Value
     t: Value
-    rest: tuple[Value, Value, Value]
+    rest: tuple[Value, Value, Value, Value]
 
 
 def _turn(
@@ -176,4 +185,5 @@ def _turn(
     if zone.mark is not None:
         mark, side = note_parts(problem, Turn(seen, zone.mark, in_zone, joins, proven, closes, hit, side))
         after = replace(after, mark=mark)
-    return _Found(status, (start + end) * 0.5, (start, side, end)), moved, after
+    blunt = proven & (seen.right - seen.left > (b - a) * BLUNT) if _bends(system) else constant(False, BOOL)
+    return _Found(status, (start + end) * 0.5, (start, side, end, blunt)), moved, after

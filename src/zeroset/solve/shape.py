@@ -127,6 +127,11 @@ class Body:
         return max(leaf.field.highest_power for leaf, _ in self.leaves)
 
     @property
+    def degree(self) -> int | None:
+        """An upper bound of the degree of its formulas; None where one is no polynomial."""
+        return _largest([leaf.field.degree for leaf, _ in self.leaves])
+
+    @property
     def digest(self) -> str:
         """Equal for what gives equal kernels."""
         return f"{self.tree.digest} {self.kind}"
@@ -153,7 +158,17 @@ class Shape:
         """The largest whole exponent in any formula."""
         return max(body.highest_power for body in self.bodies)
 
+    @property
+    def degree(self) -> int | None:
+        """An upper bound of the degree of its formulas; None where one is no polynomial."""
+        return _largest([body.degree for body in self.bodies])
+
     @cached_property
     def digest(self) -> str:
         """Equal for shapes with equal kernels."""
         return " + ".join(body.digest for body in self.bodies)
+
+
+def _largest(degrees: list[int | None]) -> int | None:
+    known = [degree for degree in degrees if degree is not None]
+    return max(known) if known and None not in degrees else None

@@ -23,21 +23,27 @@ def argument(system, index, lo, hi, kind):
     return system.symbol(index, kind(centre), kind(np.maximum(hi - centre, centre - lo)))
 
 
-@pytest.mark.parametrize("intersect", [False, True], ids=["form", "with-interval"])
+MODES = {"form": {}, "with-interval": {"intersect": True}, "curved": {"curved": True}}
+
+
+@pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("kind", [np.asarray, Fused, Flushed], ids=["plain", "fused", "flushed"])
 @pytest.mark.parametrize("name", CASES)
-def test_holds_the_truth_f32(name, kind, intersect):
-    holds(name, F32, kind, intersect)
+def test_holds_the_truth_f32(name, kind, mode):
+    holds(name, F32, kind, mode)
 
 
+@pytest.mark.parametrize("mode", ["form", "curved"])
 @pytest.mark.parametrize("name", CASES)
-def test_holds_the_truth_f64(name):
-    holds(name, F64, np.asarray, intersect=False)
+def test_holds_the_truth_f64(name, mode):
+    holds(name, F64, np.asarray, mode)
 
 
-def holds(name, fmt, kind, intersect):
+def holds(name, fmt, kind, mode):
     arity, call, truth = CASES[name]
-    system = AffineSystem(fmt, symbols=3 if arity == 2 else 1, intersect=intersect)
+    # A curved form's last symbol is one of the argument's.
+    several = 2 if mode == "curved" else 3
+    system = AffineSystem(fmt, symbols=several if arity == 2 else 1, **MODES[mode])
     ends = [boxes(fmt.dtype, COUNT, seed=i + 20 * arity) for i in range(arity)]
     with np.errstate(all="ignore"):
         numbers = [argument(system, i, *pair, kind) for i, pair in enumerate(ends)]
@@ -64,7 +70,8 @@ def holds(name, fmt, kind, intersect):
                 where = (name, [(c[i], r[i], e) for c, r, e in zip(middles, radii, symbols, strict=True)], float(value))
                 assert not outside(value, low[i], high[i]), where
                 line = flint.arb(centre[i])
-                for u, e in zip(terms, symbols, strict=False):
+                bend = [2 * flint.arb(symbols[-1]) ** 2 - 1] if mode == "curved" else []
+                for u, e in zip(terms, [*symbols, *bend], strict=mode == "curved"):
                     line += flint.arb(u[i]) * e
                 assert not abs(value - line) > flint.arb(reach[i]), where
                 checked += 1

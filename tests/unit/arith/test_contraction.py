@@ -19,14 +19,14 @@ def quintic(t, roots):
 
 
 @pytest.mark.parametrize("kind", [np.asarray, Fused, Flushed], ids=["plain", "fused", "flushed"])
-@pytest.mark.parametrize("intersect", [False, True])
-def test_no_zero_is_lost(kind, intersect):
+@pytest.mark.parametrize("mode", [{}, {"intersect": True}, {"curved": True}], ids=["form", "with-interval", "curved"])
+def test_no_zero_is_lost(kind, mode):
     generator = np.random.default_rng(8)
     count, roots = 4000, (0.25, 1.5, -0.75)
     width = (10.0 ** generator.uniform(-7, 0.3, count)).astype(np.float32)
     place = generator.uniform(-1.2, 1.2, count)
     centre = (0.25 + place * width).astype(np.float32)
-    t = AffineSystem(F32, intersect=intersect).symbol(0, kind(centre), kind(width))
+    t = AffineSystem(F32, **mode).symbol(0, kind(centre), kind(width))
     found = quintic(t, roots).contract()
     excluded, crosses = plain(found.excluded), plain(found.crosses)
     low, high = plain(found.low).astype(float), plain(found.high).astype(float)
@@ -62,6 +62,51 @@ def test_a_strip_is_cut_where_it_meets_zero(centre, slope, error, fmt):
         assert (centre - slope) * (centre + slope) < 0
         assert abs(slope) - error > abs(centre)
         assert found.rising == (slope > 0)
+
+
+@settings(max_examples=400, deadline=None)
+@given(
+    st.floats(-10, 10, width=32),
+    st.floats(-10, 10, width=32),
+    st.floats(-5, 5, width=32),
+    st.floats(0, 5, width=32),
+    st.sampled_from([F32, F64]),
+)
+def test_a_parabola_is_cut_where_it_meets_zero(centre, slope, bend, error, fmt):
+    form = AffineSystem(fmt, curved=True).form(centre, (slope, bend), error)
+    found, box = form.contract(), form.interval()
+    assert found.low >= -1
+    assert found.high <= 1
+    assert found.excluded or found.low <= found.high
+    for e in np.linspace(-1, 1, 65).tolist():
+        value = centre + slope * e + bend * (2 * e * e - 1)
+        assert box.lo <= value - error * 0.999
+        assert value + error * 0.999 <= box.hi
+        if abs(value) <= error:
+            assert not found.excluded
+            assert found.low <= e <= found.high
+        elif not found.excluded and not found.low <= e <= found.high:
+            # The sign beside what is left is that of a line that rises as the form does.
+            assert (value > 0) == ((slope > 0) == (e > found.high))
+    if found.crosses:
+        assert (centre - slope + bend) * (centre + slope + bend) < 0
+        assert abs(slope) - error > abs(centre + bend)
+        assert found.rising == (slope > 0)
+
+
+def test_a_parabola_is_cut_to_about_its_root():
+    form = AffineSystem(F32, curved=True).form(0.1, (1.0, 0.2), 2.0**-20)
+    straight = AffineSystem(F32).form(0.1, (1.0,), 0.2)
+    found, wide = form.contract(), straight.contract()
+    assert found.crosses
+    assert found.high - found.low < 0.15 * (wide.high - wide.low)
+
+
+@pytest.mark.parametrize("curved", [False, True], ids=["straight", "curved"])
+def test_a_parabola_that_stays_on_one_side_is_excluded_by_its_bend(curved):
+    t = AffineSystem(F32, curved=curved).symbol(0, 0.0, 1.0)
+    assert (t.sqr() - t + 0.375).contract().excluded == curved
+    assert (t - t.sqr() - 0.375).contract().excluded == curved
 
 
 @pytest.mark.parametrize("kind", [np.asarray, Fused], ids=["plain", "fused"])

@@ -59,12 +59,13 @@ def in_truth(node, leaves, big):
     return value if within(value, big) and value.rad() < 1e-20 else None
 
 
+@pytest.mark.parametrize("curved", [False, True], ids=["straight", "curved"])
 @pytest.mark.parametrize("seed", range(60))
-def test_a_random_expression_is_enclosed(seed):
+def test_a_random_expression_is_enclosed(seed, curved):
     chance = random.Random(seed)
     fmt = chance.choice([F32, F32, F64])
     kind = chance.choice([np.asarray, Fused, Flushed]) if fmt is F32 else np.asarray
-    system = AffineSystem(fmt, symbols=chance.choice([1, 3]), intersect=chance.random() < 0.4)
+    system = AffineSystem(fmt, symbols=chance.choice([1, 3]), intersect=chance.random() < 0.4, curved=curved)
     generator = np.random.default_rng(seed)
     node = tree(chance, chance.randint(2, 6))
     second = min(1, system.symbols - 1)
@@ -90,7 +91,8 @@ def test_a_random_expression_is_enclosed(seed):
                 if value is None:
                     continue
                 line = flint.arb(lanes[0][i])
-                for u, e in zip(lanes[2:], symbols, strict=True):
+                bend = [2 * flint.arb(symbols[-1]) ** 2 - 1] if curved else []
+                for u, e in zip(lanes[2:], symbols + bend, strict=True):
                     line += flint.arb(u[i]) * e
                 assert not abs(value - line) > flint.arb(lanes[1][i]), node
                 assert not outside(value, bounds[0][i], bounds[1][i]), node
