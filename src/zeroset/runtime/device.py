@@ -23,8 +23,7 @@ from zeroset.kernel.types import TYPES, Buffer, Type, Uniform
 Array = npt.NDArray[Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Signature:
+class Signature(NamedTuple):
     """What a caller binds to run a program: all of a kernel that outlives its compilation.
 
     Attributes:
