@@ -13,8 +13,7 @@ So existence costs no evaluations of its own, and nothing is claimed that an enc
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.kernel import BOOL, U32, Value, constant, while_
 from zeroset.solve.compound import Turn, look_at, note_parts
@@ -43,18 +42,17 @@ def _differ(problem: Problem, a: Value, b: Value) -> Value:
     return a.ne(0.0) & b.ne(0.0) & a.ne(b) if problem.levels else a * b < 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class _Zone:
+class _Zone(NamedTuple):
     """Narrowest intervals in a row that could not be excluded, and the last certain sign before them."""
 
     sign: Value
-    count: Value
+    length: Value
     start: Value
     whole: Value
     mark: Value | None = None
 
     def components(self) -> State:
-        return self.sign, self.count, self.start, self.whole
+        return self.sign, self.length, self.start, self.whole
 
     def parts(self) -> State:
         """The parts that they can be of, where there is a choice."""
@@ -107,8 +105,7 @@ def search(
     return Answer(t, status, steps, clear, side, end, mark[0] if mark else None, blunt)
 
 
-@dataclass(frozen=True, slots=True)
-class _Found:
+class _Found(NamedTuple):
     """What a turn found; the rest is where it may begin, the sign before that, and where it ends."""
 
     status: Value
@@ -135,7 +132,7 @@ def _turn(
     if delta is not None:
         narrowest = narrowest & ((seen.width <= delta) | (delta <= 0.0) | walk.deepest(place))
     proven = seen.crosses & (seen.right - seen.left <= problem.tolerance)
-    in_zone = zone.count > 0
+    in_zone = zone.length > 0
     cut = ~excluded & (seen.left > a)
 
     # A stretch with a certain sign behind the zone closes it: all of [a, b], or [a, left).
@@ -155,7 +152,7 @@ def _turn(
         ends & _differ(problem, sign, seen.after) & whole
     )
     hit = crossed | (proven & ~closes)
-    unresolved = (closes | ends | (joins & (zone.count >= ZONE - 1))) & ~hit
+    unresolved = (closes | ends | (joins & (zone.length >= ZONE - 1))) & ~hit
 
     left_place = walk.leave(problem, place, excluded.select(b, seen.right), narrowest)
     cut_place = walk.narrow(problem, place, seen.left, seen.right)
@@ -167,7 +164,7 @@ def _turn(
     learnt = cut | (seen.excluded & ~skipped)
     after = _Zone(
         learnt.select(seen.before, zone.sign),
-        joins.select(zone.count + 1, zone.count),
+        joins.select(zone.length + 1, zone.length),
         joins.select(start, zone.start),
         joins.select(whole, zone.whole),
     )
@@ -175,5 +172,5 @@ def _turn(
     side = closes.select(zone.sign, proven.select(seen.before, sign))
     if zone.mark is not None:
         mark, side = note_parts(problem, Turn(seen, zone.mark, in_zone, joins, proven, closes, hit, side))
-        after = replace(after, mark=mark)
+        after = after._replace(mark=mark)
     return _Found(status, (start + end) * 0.5, (start, side, end)), moved, after
