@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
@@ -28,7 +27,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[IO[bytes]]:
     check_writable(path)
     with _told_of(path):
         target = Path(os.path.realpath(path))
-        beside = target.parent / f".zeroset-{secrets.token_hex(6)}.part"
+        beside = target.parent / f".zeroset-{os.urandom(6).hex()}.part"
         place = beside if target.is_file() or not target.exists() else target
         with _removed_on_error(place, beside):
             with open(place, "xb" if place is beside else "wb") as file:

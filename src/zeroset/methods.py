@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from zeroset.solve.analytic import Analytic
-from zeroset.solve.certified import Affine, Auto, Interval
+from zeroset.solve.auto import Auto
+from zeroset.solve.bisection import Affine, Interval
 from zeroset.solve.exact import MitchellExact
 from zeroset.solve.method import METHODS, Method
 from zeroset.solve.mitchell import Mitchell

@@ -7,14 +7,13 @@ A number knows its format explicitly, because a Python float may stand for a con
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 __all__ = ["F32", "F64", "Format"]
 
 
-@dataclass(frozen=True, slots=True)
-class Format:
+class Format(NamedTuple):
     """A binary floating-point format.
 
     Attributes:

@@ -63,9 +63,9 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
 
 def _coloring(coloring: Coloring | None, look: dict[str, Any]) -> Coloring | None:
     """What the surface is coloured by, with what the options say of it."""
-    from zeroset.scene.coloring import Coloring
-
     if look["color_by"] is not None:
+        from zeroset.scene.coloring import Coloring
+
         coloring = Coloring(look["color_by"])
     changes: dict[str, Any] = {}
     if look["color_map"] is not None:

@@ -75,6 +75,7 @@ def command(
     """Draw SOURCE: a formula such as "x^2 + y^2 = z", a gallery name, or a scene file."""
     import dataclasses
 
+    from zeroset.rendering.image import picture_format
     from zeroset.rendering.render import render
     from zeroset.runtime import twin
 
@@ -89,7 +90,7 @@ def command(
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     twin.allow()
     begin = time.perf_counter()
-    with Progress("drawing", meanwhile=_load_formats) as progress:
+    with Progress("drawing", meanwhile=None if picture_format(path) == "PNG" else _load_formats) as progress:
         image = render(
             scene,
             read_size(size),
@@ -106,7 +107,7 @@ def command(
 
 
 def _load_formats() -> None:
-    """Load Pillow and the formats that it loads before it writes a picture of any."""
+    """Load Pillow, and the formats that it loads before it writes a picture of any."""
     from PIL import Image as Pillow
 
     Pillow.preinit()

@@ -8,15 +8,13 @@ SSE2, SSE4.2, AVX2 with FMA, AVX-512) and AArch64's NEON; any other CPU is compi
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from zeroset.kernel.build import Kernel
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+class Target(NamedTuple):
     """A CPU as the code generator sees it.
 
     Attributes:
@@ -45,7 +43,7 @@ class Target:
 
     def uncontracted(self) -> Target:
         """The same target without contraction: each operation then rounds as the interpreter's does."""
-        return replace(self, contract=False)
+        return self._replace(contract=False)
 
     def suited(self, kernel: Kernel) -> Target:
         """The same target with as many lanes as fill its registers: half as many for a kernel that is mostly in f64.
@@ -53,7 +51,7 @@ class Target:
         Twice as many run no faster, and take almost twice as long to compile.
         """
         types = Counter(result.type.name for i in kernel.body.walk() for result in i.results)
-        return replace(self, width=max(self.width // 2, 1)) if types["f64"] > types["f32"] else self
+        return self._replace(width=max(self.width // 2, 1)) if types["f64"] > types["f32"] else self
 
     @property
     def identity(self) -> str:

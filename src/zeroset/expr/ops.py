@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import math
 import operator
-from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING, Literal
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -24,8 +24,7 @@ __all__ = ["FUNCTIONS", "OPS", "Kind", "Operator", "rational_root"]
 Kind = Literal["leaf", "arithmetic", "function", "condition", "sum"]
 
 
-@dataclass(frozen=True, slots=True)
-class Operator:
+class Operator(NamedTuple):
     """What is known about one operator.
 
     Attributes:
@@ -58,7 +57,7 @@ class Operator:
     defined: Callable[..., bool] | None = None
     sign: Literal["", "positive", "nonnegative", "magnitude", "kept"] = ""
     exact: Callable[..., Fraction | None] | None = None
-    values: Mapping[Fraction | int, int] = field(default_factory=dict)
+    values: Mapping[Fraction | int, int] = MappingProxyType({})
 
     @property
     def total(self) -> bool:

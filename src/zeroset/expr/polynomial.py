@@ -7,9 +7,8 @@ bounded in work, for a product of many sums can have more terms than anyone can 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from zeroset.errors import FormulaLimitError
 from zeroset.expr import limits
@@ -28,8 +27,7 @@ _SPACE = ("x", "y", "z")
 _LARGE = 10**9
 
 
-@dataclass(frozen=True, slots=True)
-class PolynomialView:
+class PolynomialView(NamedTuple):
     """A polynomial in x, y, z.
 
     Attributes:

@@ -10,8 +10,7 @@ The minimum is ``a if a < b else b`` and the maximum ``a if a > b else b``: with
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,8 +20,7 @@ Array = Any
 """A NumPy array or scalar of a kernel type's dtype."""
 
 
-@dataclass(frozen=True, slots=True)
-class Op:
+class Op(NamedTuple):
     """One operation of the kernel language.
 
     Attributes:

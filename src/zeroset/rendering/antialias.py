@@ -9,8 +9,8 @@ that are drawn because something thinner than a pixel lies in them keep their co
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import reduce
+from typing import NamedTuple
 
 from zeroset.kernel import F32, U32, Buffer, Kernel, KernelBuilder, Value, atomic, constant, if_, load, store
 from zeroset.rendering.buffers import COUNTERS, EDGES, NORMAL, PART
@@ -38,8 +38,7 @@ class _Point:
         self.part = rest[3] if len(rest) > 3 else None
 
 
-@dataclass(frozen=True, slots=True)
-class _Look:
+class _Look(NamedTuple):
     """What a kernel's lane looks at: its pixel, and what lies around."""
 
     builder: KernelBuilder

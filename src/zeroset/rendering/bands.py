@@ -7,8 +7,7 @@ and a band is a frame like any other: the same kernels, the same programs, in bu
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,13 +16,14 @@ from zeroset.kernel.types import F32
 from zeroset.rendering.buffers import VALUE, fields
 from zeroset.rendering.frame import GBuffer
 from zeroset.rendering.layout import TILE, Layout
-from zeroset.rendering.tint import Palette
 from zeroset.runtime import Device
 from zeroset.scene.camera import Rays
 
+if TYPE_CHECKING:
+    from zeroset.rendering.tint import Palette
 
-@dataclass(frozen=True, slots=True)
-class Band:
+
+class Band(NamedTuple):
     """Some rows of a picture.
 
     Attributes:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,14 +23,14 @@ from zeroset.rendering.buffers import (
 from zeroset.rendering.drawn import Drawn
 from zeroset.rendering.layout import Layout
 from zeroset.rendering.shading import Illumination, Optics
-from zeroset.rendering.tint import Tint
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Counted, Device
 from zeroset.solve.method import Method
 
+if TYPE_CHECKING:
+    from zeroset.rendering.tint import Tint
+
 TILE_LANES = 64
-MOST_DEEP = 32
-"""Surfaces that one ray may meet after the first."""
 STACK_BYTES = 1 << 26
 """Memory for rays that wait."""
 AT_ONCE = 1 << 20

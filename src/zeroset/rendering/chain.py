@@ -8,7 +8,7 @@ lane's own; rays that count for next to nothing are not followed, and see what i
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from zeroset.kernel import BOOL, F32, U32, Value, constant, if_, load, store, while_
 from zeroset.rendering.buffers import STACK, STACK_WORDS
@@ -26,8 +26,7 @@ FAINTEST = 1.0 / 512
 Values = tuple[Value, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Traveller:
+class Traveller(NamedTuple):
     """A ray under way.
 
     Attributes:

@@ -7,8 +7,7 @@ bounds begin with a prefix of their own.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.kernel.types import F32, Type
 from zeroset.rendering.values import Arrays, parameter_uniforms
@@ -20,8 +19,7 @@ from zeroset.solve.method import Method
 from zeroset.solve.shape import Body, Complement, Join, Leaf, Shape, Tree
 
 
-@dataclass(frozen=True, slots=True)
-class Drawn:
+class Drawn(NamedTuple):
     """What a scene shows, for kernels.
 
     Attributes:

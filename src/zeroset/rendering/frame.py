@@ -11,26 +11,27 @@ import threading
 import weakref
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32, U32
-from zeroset.rendering.bounce import Bounces
 from zeroset.rendering.buffers import COUNTERS, LIT, MATERIALS, PICTURE, VALUE, fields
-from zeroset.rendering.coloring import Colors
 from zeroset.rendering.drawn import Drawn
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.materials import Table, material_table
 from zeroset.rendering.shading import Illumination, Lighting
-from zeroset.rendering.tint import Palette, Tint
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device
 from zeroset.scene.light import Material
 from zeroset.solve.method import Method
+
+if TYPE_CHECKING:
+    from zeroset.rendering.bounce import Bounces
+    from zeroset.rendering.coloring import Colors
+    from zeroset.rendering.tint import Palette, Tint
 
 Progress = Callable[[float], None]
 """Told the share of a frame that is done, from 0 to 1."""
@@ -49,8 +50,7 @@ MOST_AT_ONCE = 1 << 20
 """Rays handed over at once: systems end the work of a GPU that takes seconds over it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Structure:
+class Structure(NamedTuple):
     """What shapes a frame's kernels and buffers."""
 
     shape: str
@@ -124,13 +124,18 @@ class Frame:
         self._tracer = Tracer(drawn, method, device, True, shadows=lighting.shadows, ends=ends)
         self._shader = f"shade {lighting} {drawn.parts > 1}"
         self._bounces: Bounces | None = None
-        self._colors = (
-            None if tint is None else Colors(self._tracer, drawn.surfaces[0][1], method, tint, layout, device)
-        )
+        self._colors: Colors | None = None
+        # Colours and bounces are imported where there are any: most pictures have neither.
+        if tint is not None:
+            from zeroset.rendering.coloring import Colors
+
+            self._colors = Colors(self._tracer, drawn.surfaces[0][1], method, tint, layout, device)
         self._shades = optics is None or optics.plain
         if self._shades:
             self._tracer.add(self._shader, shader)
         if optics is not None:
+            from zeroset.rendering.bounce import Bounces
+
             self._bounces = Bounces(self._tracer, drawn, method, optics, layout, device, tint)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)

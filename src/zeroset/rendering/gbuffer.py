@@ -7,7 +7,7 @@ the one that the point is nearest to, by |f| over the length of the gradient.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
@@ -24,8 +24,7 @@ FAR = 1e30
 """Distance of what cannot be told."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Slope:
+class _Slope(NamedTuple):
     """f at a point, its gradient up to ``scale`` and ``inverse``, which together are one over the gradient's length."""
 
     value: Value

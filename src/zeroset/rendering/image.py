@@ -6,19 +6,22 @@ import io
 import os
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ZerosetError, did_you_mean
+from zeroset.rendering import png
 from zeroset.rendering.bands import Assembled
 from zeroset.rendering.buffers import NORMAL, PART, VALUE
 from zeroset.rendering.frame import GBuffer
-from zeroset.scene.coloring import Coloring
 from zeroset.shade.colormap import LARGEST
 from zeroset.solve.status import MISS, UNRESOLVED
+
+if TYPE_CHECKING:
+    from zeroset.scene.coloring import Coloring
 
 AOVS = ("depth", "normal", "part", "status", "steps", "t")
 _COLOR = 'say by what: render(..., color_by="gaussian-curvature")'
@@ -59,10 +62,11 @@ def encode(pixels: npt.NDArray[np.uint8], kind: str) -> bytes:
     Raises:
         OutputError: the format cannot hold a picture of this size.
     """
+    if kind == "PNG":
+        return png.encode(pixels)
     from PIL import Image as Pillow
 
-    # Level 1 is four times faster than the default and the files are hardly larger.
-    options = {"PNG": {"compress_level": 1}, "JPEG": {"quality": 92}, "WEBP": {"quality": 92}}
+    options = {"JPEG": {"quality": 92}, "WEBP": {"quality": 92}}
     out = io.BytesIO()
     try:
         Pillow.fromarray(np.ascontiguousarray(pixels)).save(out, kind, **options.get(kind, {}))

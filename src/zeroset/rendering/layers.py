@@ -7,7 +7,7 @@ intervals of the search; as long as the next one touches the last it is the same
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, load, store, while_
 from zeroset.rendering.buffers import FROM, NOTHING, ONWARD, SECOND
@@ -71,8 +71,7 @@ def second_layer_kernel(shape: Shape, offset: bool, pixels: bool) -> Kernel:
     return builder.kernel
 
 
-@dataclass(frozen=True, slots=True)
-class _Search:
+class _Search(NamedTuple):
     """What is searched, and how.
 
     Attributes:
@@ -91,11 +90,11 @@ class _Search:
 
     def _from(self, at: Value) -> Callable[[LoweredBody], Problem]:
         if self.subject.shape.plain:
-            return lambda body: replace(self.problem_of(body), t0=at)
+            return lambda body: self.problem_of(body)._replace(t0=at)
 
         def later(body: LoweredBody) -> Problem:
             problem = self.problem_of(body)
-            return replace(problem, t0=problem.t0.maximum(at))
+            return problem._replace(t0=problem.t0.maximum(at))
 
         return later
 

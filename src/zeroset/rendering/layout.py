@@ -8,8 +8,7 @@ frame is put into rows.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,8 +17,7 @@ from zeroset.kernel import F32, Buffer, KernelBuilder, Value, constant, if_, loa
 TILE = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
+class Layout(NamedTuple):
     """The tiling of one frame size."""
 
     width: int
@@ -83,8 +81,7 @@ def pixel_place(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:
     return column, (tile_row << 3) + ((lane >> 5) & 1) * 4 + ((lane >> 2) & 3)
 
 
-@dataclass(frozen=True, slots=True)
-class Beside:
+class Beside(NamedTuple):
     """The pixel on one side of a lane's own, as far as the frame reaches.
 
     It lies in the same block, in the tile's other block or in the next tile: each time so many lanes on that all lanes

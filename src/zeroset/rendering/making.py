@@ -10,11 +10,11 @@ more pictures follow, they are made again in the background, well, and take the 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
-from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 
 from zeroset.kernel import Kernel
 from zeroset.runtime import Device, Program, Recipe
+from zeroset.runtime.coming import Coming, side_by_side
 
 
 class Making:
@@ -28,9 +28,9 @@ class Making:
         self._device = device
         self._recipes: dict[str, tuple[str, Callable[[], Kernel]]] = {}
         self._programs: dict[str, Program] = {}
-        self._coming: dict[str, Future[Program]] = {}
+        self._coming: dict[str, Coming[Program]] = {}
         self._quick: set[str] = set()
-        self._better: dict[str, Future[Program]] = {}
+        self._better: dict[str, Coming[Program]] = {}
 
     def add(self, name: str, key: str, build: Callable[[], Kernel]) -> None:
         """Say how a program is made: the key that it is kept under on disk, and what traces its kernel."""
@@ -62,11 +62,11 @@ class Making:
                 for wanted in (True, False)
             )
             self._device.begin_apart(now, later)
-        self._coming |= _side_by_side({name: partial(self._made, name, name in hurried) for name in missing}, at_once)
+        self._coming |= side_by_side({name: partial(self._made, name, name in hurried) for name in missing}, at_once)
 
     def improve(self) -> None:
         """Begin to make again, one by one, what was made in a hurry."""
-        self._better |= _side_by_side({name: partial(self._made, name, False) for name in sorted(self._quick)}, 1)
+        self._better |= side_by_side({name: partial(self._made, name, False) for name in sorted(self._quick)}, 1)
         self._quick.clear()
 
     def pending(self, name: str) -> bool:
@@ -97,13 +97,3 @@ class Making:
 
     def _made(self, name: str, quick: bool) -> Program:
         return self._device.compile_cached(*self._recipes[name], quick)
-
-
-def _side_by_side(work: dict[str, Callable[[], Program]], at_once: int) -> dict[str, Future[Program]]:
-    """Begin several things, no more than so many at once."""
-    if not work:
-        return {}
-    pool = ThreadPoolExecutor(min(at_once, len(work)))
-    begun = {name: pool.submit(make) for name, make in work.items()}
-    pool.shutdown(wait=False)
-    return begun

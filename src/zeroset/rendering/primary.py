@@ -7,8 +7,6 @@ where the first search had proven it clear. It goes to the few rays on the list 
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load, store
 from zeroset.rendering.buffers import SECOND, Ends
 from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write, write_ends
@@ -104,7 +102,7 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), bea
         # What f32 has proven stays. Even where f64 leaves it open, it comes closer to a double root than f32 could.
         proven = load(builder.buffer("status", U32, writable=True), lane).eq(HIT)
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
-        better = replace(answer, steps=spent)
+        better = answer._replace(steps=spent)
         if_(~proven | answer.status.eq(HIT), lambda: write(builder, subject, lane, exact_ray(ray), better))
         # Rays that go on do so in f32, which needs the room that it had left around its own find.
         if_(~proven, lambda: write_ends(builder, lane, better, ends))

@@ -8,8 +8,8 @@ buffer; rays beyond the first hit do it where they are shaded. No kernel of a pi
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import NamedTuple
 
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
@@ -31,8 +31,7 @@ NEAR = 4.0
 Vector = Sequence[Value]
 
 
-@dataclass(frozen=True, slots=True)
-class Met:
+class Met(NamedTuple):
     """What a ray has met.
 
     Attributes:

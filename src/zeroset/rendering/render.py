@@ -5,30 +5,30 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.rendering.bands import Assembled, bands, fits
-from zeroset.rendering.bounce import MOST_DEEP
 from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.frame import GBuffer, Progress, frame_for, part_of
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
 from zeroset.rendering.shading import Illumination, Lighting, Smooth, shading_uniforms
-from zeroset.rendering.tint import Palette, Tint
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, number
 from zeroset.scene.camera import Camera, Rays, camera_uniforms, parse_camera
-from zeroset.scene.coloring import Coloring, as_coloring
-from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene, Shown, as_scene
 from zeroset.scene.surface import Surface
 from zeroset.solve import Method, resolve_method
 
-MOST_SAMPLES = 256
-"""Rays of one pixel."""
+if TYPE_CHECKING:
+    from zeroset.rendering.tint import Palette, Tint
+    from zeroset.scene.coloring import Coloring
+    from zeroset.scene.environment import Environment
+
 LARGEST = 16384
 """Pixels along a side."""
 PREVIEW = 512
@@ -108,18 +108,24 @@ def render(
         lights=scene.lights if lights is None else tuple(lights),
         background=scene.background if background is None else background,
         shadows=scene.shadows if shadows is None else shadows,
-        environment=scene.environment if environment is None else as_environment(environment),
     )
+    # Surroundings and colours of a quantity are imported where they are asked for, which they seldom are.
+    if environment is not None:
+        from zeroset.scene.environment import as_environment
+
+        scene = replace(scene, environment=as_environment(environment))
     if color_by is not None:
+        from zeroset.scene.coloring import as_coloring
+
         scene = _colored(scene, as_coloring(color_by))
     shown, lit, materials = as_drawn(scene.surface), scene.lights, scene.materials
     layout = _layout(size)
     chosen = resolve_method(method)
     shown.check(chosen)
     target = get_device(device)
-    smooth = _smooth(antialias, samples)
+    smooth = Smooth.of(antialias, samples)
     lighting = Lighting.of(scene, smooth)
-    tint = Tint.of(scene, target)
+    tint = _tint(scene, target) if lighting.colored else None
     whole = fits(layout, target)
     # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, lighting, layout, target, draft, tint) if whole else None
@@ -130,9 +136,9 @@ def render(
     coarse = shadow_length(shadow_tolerance, shown.smallest)
     light = None
     if scene.shadows or lighting.optics is not None:
-        light = Illumination.of(scene, rays, coarse, _depth(depth, lighting), smooth)
+        light = Illumination.of(scene, rays, coarse, lighting.depth(depth), smooth)
     coloring = materials[0].coloring
-    palette = None if coloring is None else Palette.of(coloring, scene.surface, rays)
+    palette = None if coloring is None else _palette(coloring, scene, rays)
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
@@ -142,7 +148,7 @@ def render(
             # All bands have one range: that of the whole picture, drawn smaller.
             small = _smaller(layout, target)
             seen = render(scene, (small.width, small.height), camera, method, target, tolerance, thin=thin)
-            palette = replace(palette, range=seen.range)
+            palette = palette._replace(range=seen.range)
         outputs = Assembled(layout, shown.parts, palette)
         parts = tuple(bands(layout, target))
         for i, band in enumerate(parts):
@@ -163,6 +169,18 @@ def _colored(scene: Scene, coloring: Coloring | None) -> Scene:
         return surface if material is None else surface.with_material(replace(material, coloring=coloring))
 
     return replace(scene, surface=scene.surface.mapped(own), material=material)
+
+
+def _tint(scene: Scene, device: Device) -> Tint:
+    from zeroset.rendering.tint import Tint
+
+    return Tint.of(scene, device)
+
+
+def _palette(coloring: Coloring, scene: Scene, rays: Rays) -> Palette:
+    from zeroset.rendering.tint import Palette
+
+    return Palette.of(coloring, scene.surface, rays)
 
 
 def _smaller(layout: Layout, device: Device) -> Layout:
@@ -208,24 +226,6 @@ def shadow_length(value: float | None, bounds: Bounds) -> float:
     if not length >= SMALLEST:
         raise ParameterError(f"the shadow tolerance must be at least {SMALLEST:g}, not {value!r}")
     return length
-
-
-def _depth(value: int | None, lighting: Lighting) -> int:
-    """How many surfaces a ray may meet after the first; raises ``ParameterError`` for what is no such number."""
-    optics = lighting.optics
-    if value is None:
-        return 6 if optics is not None and (optics.mirror or optics.bends) else 3
-    if not (isinstance(value, int) and 0 <= value <= MOST_DEEP):
-        raise ParameterError(f"the depth must be a whole number from 0 to {MOST_DEEP}, not {value!r}")
-    return value
-
-
-def _smooth(antialias: int, samples: int) -> Smooth:
-    """The antialiasing that was asked for; raises ``ParameterError`` for what is no number of rays."""
-    for name, value in (("antialias", antialias), ("samples", samples)):
-        if not (isinstance(value, int) and 1 <= value <= MOST_SAMPLES):
-            raise ParameterError(f"{name} must be a whole number from 1 to {MOST_SAMPLES}, not {value!r}")
-    return Smooth(samples, True) if samples > 1 else Smooth(antialias, False)
 
 
 def frame_uniforms(drawn: Drawn, method: Method, rays: Rays, layout: Layout, tolerance: float) -> dict[str, float]:

@@ -8,7 +8,7 @@ rounding their origins may do: no epsilon has to be guessed. A straight one goes
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from zeroset.kernel import F32, U32, Value, constant, for_, if_, load
 from zeroset.rendering.buffers import LIGHT_WORDS, LIGHTS, TEXELS
@@ -26,8 +26,7 @@ BRIGHTEST = 1024.0
 """The most that one ray adds to a channel; no number is more than this, and what is none is nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(NamedTuple):
     """What a ray met.
 
     Attributes:
@@ -49,8 +48,7 @@ class Found:
     value: Value | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Backing:
+class Backing(NamedTuple):
     """The colour of a surface that is solid where nothing lies behind it.
 
     Attributes:
@@ -62,8 +60,7 @@ class Backing:
     color: Color
 
 
-@dataclass(frozen=True, slots=True)
-class Onward:
+class Onward(NamedTuple):
     """A ray that goes on.
 
     Attributes:
@@ -129,7 +126,7 @@ class Response:
             return color, straight + mirrored
         direction, total = self._bent(number("ior"), found.normal, toward_eye, seen.normal)
         mirror, passing = total.select(mirror + passing, mirror), total.select(0.0, passing)
-        bent = replace(_from(ray, found.end + _blur(ray, found.end), direction, passing), backing=backing)
+        bent = _from(ray, found.end + _blur(ray, found.end), direction, passing)._replace(backing=backing)
         reflected = _mirrored(ray, before, seen, toward_eye, mirror)
         # Where nothing mirrors there is still total reflection, and then nothing goes through.
         return color, [bent, reflected] if optics.mirror else [_either(total, reflected, bent)]

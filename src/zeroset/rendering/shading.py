@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from zeroset.errors import ParameterError
 from zeroset.rendering.buffers import CLEAR, END, Ends
 from zeroset.rendering.materials import material_numbers
 from zeroset.scene.bounds import Bounds
@@ -17,10 +18,13 @@ from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene
 
 LIGHT = ("x", "y", "z", "r", "g", "b")
+MOST_DEEP = 32
+"""Surfaces that one ray may meet after the first."""
+MOST_SAMPLES = 256
+"""Rays of one pixel."""
 
 
-@dataclass(frozen=True, slots=True)
-class Smooth:
+class Smooth(NamedTuple):
     """Antialiasing.
 
     Attributes:
@@ -31,9 +35,16 @@ class Smooth:
     samples: int = 1
     everywhere: bool = False
 
+    @classmethod
+    def of(cls, antialias: int, samples: int) -> Smooth:
+        """The antialiasing that was asked for; raises ``ParameterError`` for what is no number of rays."""
+        for name, value in (("antialias", antialias), ("samples", samples)):
+            if not (isinstance(value, int) and 1 <= value <= MOST_SAMPLES):
+                raise ParameterError(f"{name} must be a whole number from 1 to {MOST_SAMPLES}, not {value!r}")
+        return cls(samples, True) if samples > 1 else cls(antialias, False)
 
-@dataclass(frozen=True, slots=True)
-class Optics:
+
+class Optics(NamedTuple):
     """What of materials and surroundings shapes the kernels of rays beyond the first hit.
 
     Attributes:
@@ -89,8 +100,7 @@ class Optics:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Lighting:
+class Lighting(NamedTuple):
     """What of the lights shapes kernels.
 
     Attributes:
@@ -117,9 +127,16 @@ class Lighting:
         kinds = "".join("d" if light.position is None else "p" for light in scene.lights)
         return cls(kinds, scene.shadows, optics, colored)
 
+    def depth(self, value: int | None) -> int:
+        """How many surfaces a ray may meet after the first; raises ``ParameterError`` for what is no such number."""
+        if value is None:
+            return 6 if self.optics is not None and (self.optics.mirror or self.optics.bends) else 3
+        if not (isinstance(value, int) and 0 <= value <= MOST_DEEP):
+            raise ParameterError(f"the depth must be a whole number from 0 to {MOST_DEEP}, not {value!r}")
+        return value
 
-@dataclass(frozen=True, slots=True)
-class Illumination:
+
+class Illumination(NamedTuple):
     """The numbers of a scene's light that are no plain uniforms.
 
     Attributes:

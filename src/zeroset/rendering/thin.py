@@ -8,7 +8,7 @@ drawn, as UNRESOLVED; where the device has f64, ``parts`` looks at the parts onc
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
@@ -36,8 +36,7 @@ HALF = 0.505
 """Half a side, and a hundredth for how coordinates are rounded: between two neighbours nothing gets lost."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Level:
+class _Level(NamedTuple):
     """The level of this run, and values that depend on it."""
 
     level: Value
@@ -122,8 +121,7 @@ def thin_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False
     return builder.kernel
 
 
-@dataclass(frozen=True, slots=True)
-class _Keeping:
+class _Keeping(NamedTuple):
     """Puts what may hold something thin on the next list, or draws it."""
 
     builder: KernelBuilder

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -30,8 +31,7 @@ MOST_SAMPLES = 1 << 16
 """Values that they are taken of, evenly spread over the picture."""
 
 
-@dataclass(frozen=True, slots=True)
-class Tint:
+class Tint(NamedTuple):
     """What of a colouring shapes kernels.
 
     Attributes:
@@ -50,10 +50,8 @@ class Tint:
         return f"{self.kind} {self.type} {'' if self.formula is None else self.formula.digest}"
 
     @classmethod
-    def of(cls, scene: Scene, device: Device) -> Tint | None:
-        """The tint of a scene; None where nothing is coloured by a quantity."""
-        if not any(material.coloring for material in scene.materials):
-            return None
+    def of(cls, scene: Scene, device: Device) -> Tint:
+        """The tint of a scene that is coloured by a quantity."""
         surface, coloring = colored_surface(scene.surface), scene.materials[0].coloring
         assert coloring is not None
         formula = formula_of(coloring, surface)
@@ -68,8 +66,7 @@ class Tint:
         return scalar_uniforms({name: values[name] for name in names} | {OFFSET: method.offset}, self.type)
 
 
-@dataclass(frozen=True, slots=True)
-class Palette:
+class Palette(NamedTuple):
     """The numbers of a colouring.
 
     Attributes:
@@ -81,7 +78,7 @@ class Palette:
 
     coloring: Coloring
     table: npt.NDArray[np.float32]
-    view: Mapping[str, float] = field(default_factory=dict)
+    view: Mapping[str, float] = MappingProxyType({})
     range: tuple[float, float] | None = None
 
     @classmethod

@@ -16,8 +16,8 @@ import hashlib
 import os
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from zeroset.runtime.compiled import Compiled
 
@@ -28,8 +28,7 @@ _SWEEP = 3600.0
 """Seconds between two looks at all files."""
 
 
-@dataclass(frozen=True, slots=True)
-class CacheStatus:
+class CacheStatus(NamedTuple):
     """What ``zeroset doctor`` shows of the cache.
 
     Attributes:

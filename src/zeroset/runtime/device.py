@@ -10,7 +10,6 @@ happens in the order it was asked for, but not always at once: a GPU collects it
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -23,8 +22,7 @@ from zeroset.kernel.types import TYPES, Buffer, Type, Uniform
 Array = npt.NDArray[Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Signature:
+class Signature(NamedTuple):
     """What a caller binds to run a program: all of a kernel that outlives its compilation.
 
     Attributes:
@@ -60,18 +58,17 @@ class Signature:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Counted:
+class Counted(NamedTuple):
     """A number of lanes that an earlier pass has written into a buffer; a GPU never brings it to the host.
 
     Attributes:
         buffer: a u32 buffer of the device.
-        index: which element.
+        place: which element.
         times: lanes for each that was counted.
     """
 
     buffer: Any
-    index: int = 0
+    place: int = 0
     times: int = 1
 
 
@@ -223,7 +220,7 @@ class HostMemory:
 
 def lanes_of(count: int | Counted) -> int:
     """The number of lanes, where buffers are arrays."""
-    return count if isinstance(count, int) else int(count.buffer[count.index]) * count.times
+    return count if isinstance(count, int) else int(count.buffer[count.place]) * count.times
 
 
 def check_count(signature: Signature, count: int) -> int:

@@ -15,7 +15,7 @@ import mmap
 import os
 import struct
 import sys
-from dataclasses import dataclass
+from typing import NamedTuple
 
 _PROGBITS, _SYMTAB, _RELA = 1, 2, 4
 _ALLOCATED = 0x2
@@ -23,8 +23,7 @@ _PC32, _PLT32 = 2, 4
 _PAGE = 4096
 
 
-@dataclass(frozen=True, slots=True)
-class _Section:
+class _Section(NamedTuple):
     kind: int
     flags: int
     offset: int

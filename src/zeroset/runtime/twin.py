@@ -18,8 +18,10 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import NoReturn
+
+from zeroset.runtime.coming import side_by_side
 
 Work = Callable[[], object]
 _allowed = False
@@ -103,8 +105,9 @@ def _live(work: Sequence[Work], later: Sequence[Work], said: int) -> NoReturn:
             (*work, *later)[number]()
             os.write(said, bytes([number]))
 
-        with ThreadPoolExecutor(len(work)) as pool:
-            pool.map(one, range(len(work)))
+        coming = side_by_side({number: partial(one, number) for number in range(len(work))}, len(work))
+        for piece in coming.values():
+            piece.wait()
         for number in range(len(work), len(work) + len(later)):
             one(number)
     finally:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,8 +22,7 @@ NARROWEST = 1e-3
 """Least opening angle, and how far it stays below 180 degrees."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rays:
+class Rays(NamedTuple):
     """The six vectors of a camera's affine map, in world units; see the module's text."""
 
     eye: Vector
@@ -32,9 +31,6 @@ class Rays:
     forward: Vector
     right: Vector
     up: Vector
-
-    def __iter__(self) -> Any:
-        return iter((self.eye, self.right_origin, self.up_origin, self.forward, self.right, self.up))
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,8 @@ each side of the middle). Oklab: B. Ottosson, A perceptual color space for image
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,8 +25,7 @@ _FINE = 2048
 Floats = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class ColorMap:
+class ColorMap(NamedTuple):
     """A colour map.
 
     Attributes:

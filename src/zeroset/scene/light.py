@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from zeroset.errors import ParameterError
 from zeroset.scene.bounds import Vector, number, vector
-from zeroset.scene.coloring import Coloring, as_coloring
+
+if TYPE_CHECKING:
+    from zeroset.scene.coloring import Coloring
 
 Color = tuple[float, float, float]
 
@@ -105,7 +108,11 @@ class Material:
         if self.last_solid not in (True, False):
             raise ParameterError(f"a material's last_solid must be True or False, not {self.last_solid!r}")
         object.__setattr__(self, "last_solid", bool(self.last_solid))
-        object.__setattr__(self, "coloring", as_coloring(self.coloring))
+        if self.coloring is not None:
+            # Imported where there is one: most pictures are coloured by nothing.
+            from zeroset.scene.coloring import as_coloring
+
+            object.__setattr__(self, "coloring", as_coloring(self.coloring))
         if not 0.1 <= self.ior <= 10:
             raise ParameterError(f"a material's index of refraction must be from 0.1 to 10, not {self.ior!r}")
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.scene.camera import Camera
-from zeroset.scene.coloring import formula_of
-from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
 from zeroset.scene.several import Drawable, Several, as_drawable, colored_surface, plain_surface
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
+
+if TYPE_CHECKING:
+    from zeroset.scene.environment import Environment
 
 MOST_LIGHTS = 32
 """Lights of a scene: each is code in the shading kernel."""
@@ -60,8 +62,14 @@ class Scene:
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
         for material in self.materials:
             if material.coloring is not None:
+                from zeroset.scene.coloring import formula_of
+
                 formula_of(material.coloring, colored_surface(self.surface))
-        object.__setattr__(self, "environment", as_environment(self.environment))
+        if self.environment is not None:
+            # Imported where there is one, as colourings are: most pictures have neither.
+            from zeroset.scene.environment import as_environment
+
+            object.__setattr__(self, "environment", as_environment(self.environment))
         lights = self.lights if isinstance(self.lights, (tuple, list)) else (self.lights,)
         for light in lights:
             if not isinstance(light, Light):

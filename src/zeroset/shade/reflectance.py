@@ -8,7 +8,7 @@ viewer, so that isolated nodes and thin axes stay visible.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from zeroset.kernel import Value, if_
 from zeroset.shade.albedo import Albedo, two_sided
@@ -53,8 +53,7 @@ def blinn_phong(
     return color
 
 
-@dataclass(frozen=True, slots=True)
-class Face:
+class Face(NamedTuple):
     """The side of a point that is seen, ready to be lit.
 
     Attributes:

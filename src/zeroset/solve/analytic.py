@@ -9,7 +9,7 @@ the residual on the whole stretch. Rays near a double root, where no closed form
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from zeroset.arith import AffineSystem
 from zeroset.errors import MethodError
@@ -53,8 +53,7 @@ class Analytic(Method):
         return Answer(t, status, rest.steps + 1, rest.clear, side, end)
 
 
-@dataclass(frozen=True, slots=True)
-class _Closed:
+class _Closed(NamedTuple):
     proven: Value
     status: Value
     t: Value

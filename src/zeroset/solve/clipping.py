@@ -16,10 +16,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.arith import AffineSystem, MajorantSystem, NotPolynomialError, PolySystem, RealSystem
 from zeroset.kernel import BOOL, U32, Value, constant, while_
@@ -79,11 +78,10 @@ def _rest(problem: Problem, length: Value, free: _Free) -> Problem:
     none = free.none | ~(problem.t1 > problem.t0)
     start = none.select(problem.t1, start.maximum(problem.t0))
     step = free.aim * length * 2.0 + problem.tolerance * (NEAR * 2.0)
-    return replace(problem, t0=start, step=step.minimum((problem.t1 - start) * 0.125))
+    return problem._replace(t0=start, step=step.minimum((problem.t1 - start) * 0.125))
 
 
-@dataclass(frozen=True, slots=True)
-class _Floor:
+class _Floor(NamedTuple):
     """A polynomial below f or -f along a stretch, whichever is positive where that starts.
 
     Attributes:
@@ -176,8 +174,7 @@ def _largest(values: Sequence[Value]) -> Value:
     return reduce(lambda a, b: a.maximum(b), values)
 
 
-@dataclass(frozen=True, slots=True)
-class _Free:
+class _Free(NamedTuple):
     """Where a polynomial is certainly positive, in shares of the stretch that it is given over.
 
     Attributes:

@@ -12,8 +12,7 @@ certainly below f, 0 where that is not certain.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.kernel import BOOL, U32, Value, constant, lift
 from zeroset.solve.look import Interval, Look, read
@@ -22,8 +21,7 @@ from zeroset.solve.shape import Complement, Join, Leaf, Tree
 from zeroset.solve.subject import LoweredBody
 
 
-@dataclass(frozen=True, slots=True)
-class _Span:
+class _Span(NamedTuple):
     """A look of which only what is certain is left.
 
     Attributes:
@@ -90,7 +88,7 @@ def _solid(problem: Problem, body: LoweredBody, tree: Tree, system: Any, t: Any,
             return _certain(read(problem, f, over), tree, over)
         case Complement():
             span = _solid(problem, body, tree.of, system, t, over)
-            return replace(span, before=-span.before, after=-span.after)
+            return span._replace(before=-span.before, after=-span.after)
         case Join():
             left, right = (_solid(problem, body, each, system, t, over) for each in (tree.left, tree.right))
             return _join(left, right, tree.union)
@@ -140,8 +138,7 @@ def _join(u: _Span, v: _Span, union: bool) -> _Span:
 # ---------------------------------------------------------- what was met
 
 
-@dataclass(frozen=True, slots=True)
-class Turn:
+class Turn(NamedTuple):
     """What a turn of the search came to, for a body of several parts.
 
     Attributes:

@@ -9,7 +9,7 @@ range comes from its critical points in the same way.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from zeroset.errors import MethodError
@@ -49,8 +49,7 @@ class MitchellExact(Method):
         pieces = _ExactPieces(problem, polynomial.coefficients, polynomial.derivative())
         one = constant(1.0, F32)
         empty = ~(problem.t1 > problem.t0)
-        inner = replace(
-            problem,
+        inner = problem._replace(
             t0=-one,
             t1=empty.select(-one, one),
             tolerance=(problem.tolerance / polynomial.half).maximum(2.0**-20),

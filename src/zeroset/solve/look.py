@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.arith import Affine as AffineForm
 from zeroset.arith import AffineSystem
@@ -11,8 +10,7 @@ from zeroset.kernel import BOOL, Value, lift
 from zeroset.solve.problem import Problem
 
 
-@dataclass(frozen=True, slots=True)
-class Look:
+class Look(NamedTuple):
     """What one evaluation says of an interval [a, b].
 
     Where there are several isovalues, a *label* stands in a sign's place: one more than how many of them are below f.
@@ -40,8 +38,7 @@ class Look:
     mark: Value | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Interval:
+class Interval(NamedTuple):
     """The interval [a, b] as middle and half width; these cover a and b whatever was rounded."""
 
     a: Value

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from zeroset.solve.shape import Shape
 
 HOMES = {
-    "auto": "certified",
-    "affine": "certified",
-    "interval": "certified",
+    "auto": "auto",
+    "affine": "bisection",
+    "interval": "bisection",
     "analytic": "analytic",
     "mitchell": "mitchell",
     "mitchell-exact": "exact",

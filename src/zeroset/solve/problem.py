@@ -8,8 +8,7 @@ shown to hold a sign change).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
@@ -22,8 +21,7 @@ if TYPE_CHECKING:
     from zeroset.solve.subject import LoweredBody
 
 
-@dataclass(frozen=True, slots=True)
-class Problem:
+class Problem(NamedTuple):
     """One lane's search for the first root of f along its ray.
 
     Attributes:
@@ -78,8 +76,7 @@ class Problem:
         return lift(value, self.type)
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(NamedTuple):
     """What a lane found.
 
     Attributes:

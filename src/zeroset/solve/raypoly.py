@@ -11,9 +11,8 @@ rays that it cannot settle are looked at again by other means.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import reduce
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.arith import F32 as FORMAT
 from zeroset.arith import IntervalSystem, PolySystem, elementary
@@ -32,8 +31,7 @@ def as_value(x: Value | float) -> Value:
     return lift(x, F32)
 
 
-@dataclass(frozen=True, slots=True)
-class RayPolynomial:
+class RayPolynomial(NamedTuple):
     """f(o + t d) = sum of coefficients[k] e^k with t = middle + e * half.
 
     Attributes:
@@ -78,8 +76,7 @@ def ray_polynomial(problem: Problem, degree: int) -> RayPolynomial:
     return RayPolynomial(tuple(known), middle, half)
 
 
-@dataclass(frozen=True, slots=True)
-class Quadratic:
+class Quadratic(NamedTuple):
     """The monic factor e^2 + b e + c, coefficients taken as exact."""
 
     b: Value
@@ -120,8 +117,7 @@ def _signed(flipped: Value, low: Value, high: Value) -> Interval:
     return SYSTEM.bounds(flipped.select(low, -high), flipped.select(high, -low))
 
 
-@dataclass(frozen=True, slots=True)
-class Linear:
+class Linear(NamedTuple):
     """The monic factor e - r, its root taken as exact."""
 
     r: Value
@@ -138,8 +134,7 @@ class Linear:
 Factor = Quadratic | Linear
 
 
-@dataclass(frozen=True, slots=True)
-class Factored:
+class Factored(NamedTuple):
     """leading * product of monic factors = the polynomial within ``residual``, for e in [-1, 1]."""
 
     leading: Value

@@ -13,8 +13,7 @@ So existence costs no evaluations of its own, and nothing is claimed that an enc
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.arith import AffineSystem
 from zeroset.kernel import BOOL, U32, Value, constant, while_
@@ -51,18 +50,17 @@ def _bends(system: Any) -> bool:
     return isinstance(system, AffineSystem) and system.curved
 
 
-@dataclass(frozen=True, slots=True)
-class _Zone:
+class _Zone(NamedTuple):
     """Narrowest intervals in a row that could not be excluded, and the last certain sign before them."""
 
     sign: Value
-    count: Value
+    length: Value
     start: Value
     whole: Value
     mark: Value | None = None
 
     def components(self) -> State:
-        return self.sign, self.count, self.start, self.whole
+        return self.sign, self.length, self.start, self.whole
 
     def parts(self) -> State:
         """The parts that they can be of, where there is a choice."""
@@ -116,8 +114,7 @@ def search(
     return Answer(t, status, steps, clear, side, end, mark[0] if mark else None, blunt)
 
 
-@dataclass(frozen=True, slots=True)
-class _Found:
+class _Found(NamedTuple):
     """What a turn found; the rest is where it may begin, the sign before that, where it ends, and how bluntly."""
 
     status: Value
@@ -144,7 +141,7 @@ def _turn(
     if delta is not None:
         narrowest = narrowest & ((seen.width <= delta) | (delta <= 0.0) | walk.deepest(place))
     proven = seen.crosses & (seen.right - seen.left <= problem.tolerance)
-    in_zone = zone.count > 0
+    in_zone = zone.length > 0
     cut = ~excluded & (seen.left > a)
 
     # A stretch with a certain sign behind the zone closes it: all of [a, b], or [a, left).
@@ -164,7 +161,7 @@ def _turn(
         ends & _differ(problem, sign, seen.after) & whole
     )
     hit = crossed | (proven & ~closes)
-    unresolved = (closes | ends | (joins & (zone.count >= ZONE - 1))) & ~hit
+    unresolved = (closes | ends | (joins & (zone.length >= ZONE - 1))) & ~hit
 
     left_place = walk.leave(problem, place, excluded.select(b, seen.right), narrowest)
     cut_place = walk.narrow(problem, place, seen.left, seen.right)
@@ -176,7 +173,7 @@ def _turn(
     learnt = cut | (seen.excluded & ~skipped)
     after = _Zone(
         learnt.select(seen.before, zone.sign),
-        joins.select(zone.count + 1, zone.count),
+        joins.select(zone.length + 1, zone.length),
         joins.select(start, zone.start),
         joins.select(whole, zone.whole),
     )
@@ -184,6 +181,6 @@ def _turn(
     side = closes.select(zone.sign, proven.select(seen.before, sign))
     if zone.mark is not None:
         mark, side = note_parts(problem, Turn(seen, zone.mark, in_zone, joins, proven, closes, hit, side))
-        after = replace(after, mark=mark)
+        after = after._replace(mark=mark)
     blunt = proven & (seen.right - seen.left > (b - a) * BLUNT) if _bends(system) else constant(False, BOOL)
     return _Found(status, (start + end) * 0.5, (start, side, end, blunt)), moved, after

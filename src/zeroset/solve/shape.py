@@ -9,8 +9,7 @@ plain leaf is one, each isovalue is one. ``Subject`` is a shape inside one kerne
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
+from typing import NamedTuple
 
 from zeroset.solve.field import Field
 
@@ -18,8 +17,7 @@ MOST_PARTS = 32
 """Parts of a shape: what a ray may have met is a set of bits."""
 
 
-@dataclass(frozen=True)
-class Leaf:
+class Leaf(NamedTuple):
     """One field.
 
     Attributes:
@@ -51,8 +49,7 @@ class Leaf:
         return f"{self.field.digest}{levels}{f' as {self.part}' if self.prefix else ''}"
 
 
-@dataclass(frozen=True)
-class Complement:
+class Complement(NamedTuple):
     """What is not inside a tree."""
 
     of: Tree
@@ -63,8 +60,7 @@ class Complement:
         return f"~{self.of.digest}"
 
 
-@dataclass(frozen=True)
-class Join:
+class Join(NamedTuple):
     """What is inside both of two trees, or (``union``) inside one of them at least."""
 
     left: Tree
@@ -92,8 +88,7 @@ def leaves_of(tree: Tree, sign: int = 1) -> Iterator[tuple[Leaf, int]]:
             yield from leaves_of(tree.right, sign)
 
 
-@dataclass(frozen=True)
-class Body:
+class Body(NamedTuple):
     """What is searched at once.
 
     Attributes:
@@ -116,7 +111,7 @@ class Body:
         """How many isovalues it has; 0 for solids and plain surfaces."""
         return self.tree.levels if isinstance(self.tree, Leaf) else 0
 
-    @cached_property
+    @property
     def leaves(self) -> tuple[tuple[Leaf, int], ...]:
         """Its leaves, each once, with the sign that turns their gradients out of the solid."""
         return tuple({leaf.part: (leaf, sign) for leaf, sign in reversed(tuple(leaves_of(self.tree)))}.values())[::-1]
@@ -137,13 +132,12 @@ class Body:
         return f"{self.tree.digest} {self.kind}"
 
 
-@dataclass(frozen=True)
-class Shape:
+class Shape(NamedTuple):
     """All that a scene shows."""
 
     bodies: tuple[Body, ...]
 
-    @cached_property
+    @property
     def parts(self) -> int:
         """How many parts can be told apart."""
         return sum(leaf.parts for body in self.bodies for leaf, _ in body.leaves)
@@ -163,7 +157,7 @@ class Shape:
         """An upper bound of the degree of its formulas; None where one is no polynomial."""
         return _largest([body.degree for body in self.bodies])
 
-    @cached_property
+    @property
     def digest(self) -> str:
         """Equal for shapes with equal kernels."""
         return " + ".join(body.digest for body in self.bodies)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Type, Value, constant, lift
@@ -124,10 +123,10 @@ class Subject:
             problem = problem_of(body)
             if best is not None:
                 found = best.status.ne(MISS)
-                problem = replace(problem, t1=found.select(problem.t1.minimum(best.end), problem.t1))
+                problem = problem._replace(t1=found.select(problem.t1.minimum(best.end), problem.t1))
             answer = trace(problem)
             if answer.mark is None and self.shape.parts > 1:
-                answer = replace(answer, mark=constant(body.body.leaves[0][0].bits, U32))
+                answer = answer._replace(mark=constant(body.body.leaves[0][0].bits, U32))
             best = answer if best is None else _nearer(best, answer)
         assert best is not None
         return best

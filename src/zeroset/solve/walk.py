@@ -8,7 +8,6 @@ narrows to what the affine form leaves; ``Bisecting`` walks the dyadic tree with
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
 
 from zeroset.kernel import BOOL, F32, I32, U32, Value, constant
@@ -44,7 +43,6 @@ class Walk(Protocol):
         """Whether the stretch is used up."""
 
 
-@dataclass(frozen=True)
 class Striding:
     """Steps of free length: doubled after an empty interval, cut to the candidates otherwise.
 
@@ -116,7 +114,6 @@ def _next(k: Value, d: Value) -> tuple[Value, Value]:
     return k >> twos, d - twos
 
 
-@dataclass(frozen=True)
 class Bisecting:
     """The dyadic tree over [t0, t1]. State: place k and depth d (i32): [t0 + k 2^-d L, t0 + (k+1) 2^-d L]."""
 
@@ -155,7 +152,6 @@ class Bisecting:
         return state[1].eq(0) & (state[0] > 0)
 
 
-@dataclass(frozen=True)
 class AxisBisecting:
     """The dyadic tree over slabs of the dominant axis K, shared by the lanes of a packet. State: k, d (i32).
 

@@ -21,6 +21,20 @@ def test_a_picture_from_a_fresh_process(tmp_path: Path) -> None:
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_plain_picture_loads_nothing_that_it_does_not_need(tmp_path: Path) -> None:
+    """Each of these takes milliseconds, of the two or three hundred that a known formula takes."""
+    program = (
+        "import sys; from zeroset.cli import main; main(sys.argv[1:])\n"
+        "print(*sorted({'PIL', 'logging', 'subprocess', 'zeroset.scene.coloring', 'zeroset.scene.environment',\n"
+        "               'zeroset.rendering.bounce', 'zeroset.rendering.tint'} & set(sys.modules)))"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", program, "render", "x^2 + y^2 + z^2 = 1", "-s", "32", "-o", "a.png"],
+        cwd=tmp_path, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert ran.stdout.splitlines()[1:] == [""]
+
+
 def test_a_mistake_is_no_traceback(tmp_path: Path) -> None:
     ran = subprocess.run([*COMMAND, "render", "x^2 +* y"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert ran.returncode == 2

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -101,7 +100,7 @@ def test_the_probe_sees_how_doubles_are_rounded(monkeypatch: pytest.MonkeyPatch)
         # As a driver does that takes numbers beyond 2^24 for whole ones, as f32 numbers are.
         return np.where(np.abs(a) < 2.0**24, np.trunc(a), a)
 
-    monkeypatch.setitem(OPS, "trunc", replace(OPS["trunc"], evaluate=careless))
+    monkeypatch.setitem(OPS, "trunc", OPS["trunc"]._replace(evaluate=careless))
     assert not rounds_doubles(InterpreterDevice())
 
 

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from zeroset.errors import DeviceError
 
@@ -29,8 +28,7 @@ NEEDED_BUFFERS = 16
 """Buffers that a kernel may bind; WebGPU guarantees 8, all desktop GPUs have more."""
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(NamedTuple):
     """An adapter that could be opened.
 
     Attributes:

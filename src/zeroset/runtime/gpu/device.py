@@ -173,7 +173,7 @@ class GpuDevice:
         calls = self.stream.counted
         slot = calls.add(bytes(HEAD.size) + uniforms)
         counter = self._counting().pipeline
-        numbers = {"index": count.index, "times": count.times, "slot": slot // 4}
+        numbers = {"index": count.place, "times": count.times, "slot": slot // 4}
         by_name = {"counters": count.buffer, "calls": self._calls}
         ordered = tuple(by_name[b.name] for b in counter.signature.buffers)
         place = self.stream.direct.add(head(1, self.target.workgroup) + counter.layout.pack(numbers))

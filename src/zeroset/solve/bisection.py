@@ -1,8 +1,7 @@
-"""The general certified methods: an enclosure of f, and a walk along the ray.
+"""K09's two certified methods: an enclosure of f, and a bisection of the ray.
 
 ``interval`` and ``affine`` bisect t without a stack (K09 section 5.5) or the dominant axis (section 4.2), as the paper
-does; ``auto`` strides, cutting each interval to what the affine form leaves of it, which near a simple root squares
-the width each time. All three share ``search.py`` and prove what they answer.
+does. Like ``auto`` they share ``search.py`` and prove what they answer.
 
 What tracing needs is imported where it is traced: a picture whose kernels come from the cache never loads it.
 """
@@ -82,22 +81,3 @@ class Affine(_Bisection):
         from zeroset.arith import AffineSystem
 
         return AffineSystem(fmt, symbols=1)
-
-
-@register
-@dataclass(frozen=True)
-class Auto(Method):
-    """The default: strides with affine cuts; the interval is kept beside the form where that pays."""
-
-    name: ClassVar[str] = "auto"
-    certified: ClassVar[bool] = True
-    enclosing: ClassVar[bool] = True
-    summary: ClassVar[str] = "picks by degree and operators; always certified"
-
-    def trace(self, problem: Problem) -> Answer:
-        """Emit the search for the first root."""
-        from zeroset.solve.search import search
-        from zeroset.solve.systems import automatic_system
-        from zeroset.solve.walk import Striding
-
-        return search(problem, automatic_system(problem.field, problem.fmt), Striding())
