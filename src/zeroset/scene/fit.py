@@ -56,6 +56,20 @@ def fit_bounds(thing: Surface | Solid) -> Ball:
     return Ball(radius * 1.01, (float(center[0]), float(center[1]), float(center[2])))
 
 
+def values_at(surface: Surface, points: Corners) -> Corners:
+    """f at points, (N, 3), as closely as an enclosure tells it; NaN where f is not defined, or its values not finite.
+
+    Example:
+        >>> import zeroset as zs
+        >>> values_at(zs.surface("x^2 + y^2 - 1"), np.array([[0.0, 0.0, 5.0], [2.0, 0.0, 0.0]])).round(9).tolist()
+        [-1.0, 3.0]
+    """
+    f = _over(surface, IntervalSystem(F64), points, points)
+    with np.errstate(all="ignore"):
+        middle = 0.5 * (np.asarray(f.lo) + np.asarray(f.hi))
+    return np.broadcast_to(np.where(np.isfinite(middle), middle, np.nan), (len(points),))
+
+
 def _split(low: Corners, high: Corners) -> tuple[Corners, Corners]:
     """The eight halves of each box."""
     middle = 0.5 * (low + high)
