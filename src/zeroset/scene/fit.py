@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from zeroset.arith import F64, Interval, IntervalSystem
 from zeroset.scene.bounds import Ball
+from zeroset.scene.parameters import LARGEST
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface
 
@@ -57,7 +58,7 @@ def fit_bounds(thing: Surface | Solid) -> Ball:
 
 
 def values_at(surface: Surface, points: Corners) -> Corners:
-    """f at points, (N, 3), as closely as an enclosure tells it; NaN where f is not defined, or its values not finite.
+    """f at points, (N, 3), as closely as an enclosure tells it; NaN where it is not defined, or too large.
 
     Example:
         >>> import zeroset as zs
@@ -65,9 +66,10 @@ def values_at(surface: Surface, points: Corners) -> Corners:
         [-1.0, 3.0]
     """
     f = _over(surface, IntervalSystem(F64), points, points)
-    with np.errstate(all="ignore"):
-        middle = 0.5 * (np.asarray(f.lo) + np.asarray(f.hi))
-    return np.broadcast_to(np.where(np.isfinite(middle), middle, np.nan), (len(points),))
+    low, high = np.asarray(f.lo), np.asarray(f.hi)
+    # Ends near the largest floats say that nothing is known.
+    known = np.maximum(np.abs(low), np.abs(high)) < LARGEST
+    return np.broadcast_to(np.where(known, 0.5 * (low + high), np.nan), (len(points),))
 
 
 def _split(low: Corners, high: Corners) -> tuple[Corners, Corners]:

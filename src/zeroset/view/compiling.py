@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from zeroset.scene.bounds import Bounds
+from zeroset.scene.bounds import Ball, Bounds
 from zeroset.scene.camera import Camera, fit_camera
+from zeroset.scene.fit import UNBOUNDED
 from zeroset.scene.scene import Scene
 from zeroset.view.item import Item
 from zeroset.view.levels import value_span
@@ -74,13 +75,22 @@ def compile_and_show(wish: Wish, superseded: Superseded) -> Shown:
 
 
 def _show(wish: Wish, wanted: Item) -> Shown:
-    item = replace(wanted, surface=wanted.surface.with_bounds(wanted.drawn.fitted), refit=wanted.surface.bounds is None)
+    item = replace(
+        wanted, surface=wanted.surface.with_bounds(_bounds(wish, wanted)), refit=wanted.surface.bounds is None
+    )
     if item.levels:
         item = replace(item, level_span=value_span(item.surface, item.levels))
     state = wish.state.with_item(item)
     camera = _camera(wish, state)
     scene = replace(state, camera=camera).scene
     return Shown(wish, item, camera, paint(_first(wish.shot, scene), lambda: False))
+
+
+def _bounds(wish: Wish, wanted: Item) -> Bounds:
+    """Its bounds, fitted where it has none; what goes on for ever beside others stays where it was."""
+    bounds, before = wanted.drawn.fitted, wish.state.find(wanted.key)
+    endless = bounds == Ball(UNBOUNDED) and wish.state.several
+    return before.surface.fitted if endless and before is not None else bounds
 
 
 def _camera(wish: Wish, state: State) -> Camera:

@@ -381,6 +381,17 @@ def test_one_of_several_is_looked_for_where_it_is(two: Driver) -> None:
     assert two.session.state.camera.target[0] == pytest.approx(4.0, abs=0.5)
 
 
+def test_a_plane_beside_others_stays_in_its_bounds(two: Driver) -> None:
+    two.rest()
+    two.session.state = states.with_another_item(two.session.state)
+    two.rest()
+    before = two.session.state
+    two.change(text="z + 1.5 + sin(x) sin(y)")
+    assert drawn_like_render(two)
+    assert two.session.state.item.surface.bounds == before.item.surface.bounds
+    assert two.session.state.camera == before.camera
+
+
 def test_a_surface_is_added_typed_over_and_removed_again(two: Driver) -> None:
     two.rest()
     two.session.state = states.with_another_item(two.session.state)

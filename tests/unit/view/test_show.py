@@ -106,6 +106,8 @@ def test_the_command_line_says_it_in_one_message(zeroset_command: Callable[..., 
         ["x=y", "-m", "nonesuch"],
         ["x=y", "-d", "toaster"],
         ["x=y", "--log", "."],
+        ["x=y", "--isovalues", "1,?"],
+        ["x=y", "--isovalues", "0,1", "-m", "marching-points"],
     ):
         status, text = zeroset_command("view", *args)
         assert status == 2
