@@ -14,6 +14,9 @@ from zeroset.view.state import State, with_another_item, without_item
 from zeroset.view.widgets import ROOM, packed, remover
 
 ADD = "add a surface"
+"""What the button says that adds one."""
+ROWS = 6
+"""Surfaces that are listed at once."""
 SWATCH = 14.0
 """Side of the square that shows a surface's colours."""
 LONGEST = 200
@@ -22,14 +25,23 @@ LONGEST = 200
 
 def draw(state: State, context: Context) -> State:
     """A row for each; nothing where there is one alone."""
+    if not state.several:
+        return state
     imgui, removed = context.imgui, None
-    for place, item in enumerate(state.items if state.several else ()):
+    # The formula box stays in sight under however many there are.
+    rows, gap = min(len(state.items), ROWS), imgui.get_style().item_spacing.y
+    imgui.push_style_color(imgui.Col_.child_bg, (*theme.PANEL, 1.0))
+    imgui.begin_child("##surfaces", (0.0, rows * (imgui.get_frame_height() + gap) - gap))
+    for place, item in enumerate(state.items):
         imgui.push_id(item.key)
         if _row(context, item, place == state.chosen):
             state = replace(state, chosen=place)
+        _follow(context, item, place == state.chosen)
         if remover(imgui, "remove this surface"):
             removed = place
         imgui.pop_id()
+    imgui.end_child()
+    imgui.pop_style_color()
     return state if removed is None else without_item(state, removed)
 
 
@@ -47,9 +59,11 @@ def _row(context: Context, item: Item, chosen: bool) -> bool:
     imgui = context.imgui
     corner, height = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
     width = imgui.get_content_region_avail().x - ROOM
-    clicked = imgui.invisible_button("##surface", (width, height))
+    clicked, hovered = imgui.invisible_button("##surface", (width, height)), imgui.is_item_hovered()
+    if item.surface.name:
+        imgui.set_item_tooltip(item.text[:LONGEST])
     pen, end = imgui.get_window_draw_list(), (corner.x + width, corner.y + height)
-    if chosen or imgui.is_item_hovered():
+    if chosen or hovered:
         fill = (0.24, 0.20, 0.16) if chosen else theme.FIELD_HOT
         pen.add_rect_filled((corner.x, corner.y), end, packed(imgui, fill), 5.0)
     _swatch(imgui, pen, corner.x + 8.0, corner.y + 0.5 * (height - SWATCH), colors(item))
@@ -60,6 +74,15 @@ def _row(context: Context, item: Item, chosen: bool) -> bool:
     pen.add_text(context.fonts.code, theme.SIZE, place, packed(imgui, tint), title(item))
     pen.pop_clip_rect()
     return bool(clicked)
+
+
+def _follow(context: Context, item: Item, chosen: bool) -> None:
+    """Bring the row that was drawn last into view, if its surface has just been chosen; one that was added is."""
+    fields, key = context.fields, str(item.key)
+    if chosen and fields.get("chosen surface") != key:
+        fields["chosen surface"] = key
+        if not context.imgui.is_item_visible():
+            context.imgui.set_scroll_here_y(1.0)
 
 
 def _swatch(imgui: Any, pen: Any, x: float, y: float, shown: tuple[Color, ...]) -> None:
