@@ -21,9 +21,11 @@ from zeroset.view import canvas as canvases, panels, window
 from zeroset.view.log import Log
 from zeroset.view.session import Session
 from zeroset.view.show import scene_of, start
-from zeroset.view.state import OVERLAYS, Motion
+from zeroset.view.levels import Level
+from zeroset.view.motion import Motion
+from zeroset.view.state import OVERLAYS, with_another_item
 
-window.PANELS = tuple((title, draw, True) for title, draw, _ in panels.PANELS)
+window.PANELS = tuple((title, draw, lambda state: True) for title, draw, _ in panels.PANELS)
 canvas = RenderCanvas(size=(600, 700), pixel_ratio=float(sys.argv[1]))
 session = Session(start(*scene_of("x^2 + y^2 + a*z^2 = 1"), zs.methods.Auto(), "cpu", None), Log(None))
 shown = window.Window(canvas, canvases.find_adapter(), session)
@@ -47,7 +49,9 @@ for overlay in OVERLAYS:
     session.state = replace(state, overlay=overlay, axes=True, grid=True, outline=True, help=True)
     draw()
 for changes in (
-    {"surface": state.surface.with_bounds(zs.Box((-1, -1, -1), (1, 2, 1)))},
+    {"surface": state.item.surface.with_bounds(zs.Box((-1, -1, -1), (1, 2, 1)))},
+    {"levels": (Level(0.5, (1, 0, 0)), Level(-0.5, (0, 1, 0)))},
+    {"levels": tuple(Level(0.1 * i, (1, 0, 0)) for i in range(16))},
     {"camera": zs.Camera(eye=(0.0, 0.0, 5.0), height=3.0)},
     {"flying": True},
     {"lights": ()},
@@ -65,8 +69,14 @@ for changes in (
     {"text": "x + foo"},
     {"surface": zs.gallery["blinn-blobby"]},
 ):
-    session.state = replace(state, **changes)
-    draw(lambda: session.state.playing or session.resting)
+    for several in (False, True):
+        own = {name: value for name, value in changes.items() if hasattr(state.item, name)}
+        session.state = state.edited(**own)
+        session.state = replace(session.state, **{k: v for k, v in changes.items() if k not in own})
+        if several:
+            session.state = with_another_item(session.state)
+            session.state = replace(session.state, chosen=0)
+        draw(lambda: session.state.playing or session.resting)
 session.state = state.ask("copy-python").ask("save-picture", "no/such/place.png\\n")
 draw(lambda: "cannot" in session.notes.latest)
 print("panels drawn")

@@ -21,12 +21,14 @@ PANE = (slice(0, 740), slice(int(SIDEBAR), SIZE[0]))
 """The picture on the screen, above the strip with its numbers."""
 BOX, SLIDER = (150, 40), (232, 160)
 """The formula box, and the handle of the first slider at half of its range's upper part."""
-GALLERY, COLOURS, LIGHT = (100, 198), (100, 326), (100, 294)
+GALLERY, COLOURS, LIGHT = (100, 230), (100, 358), (100, 326)
 """Heads of panels: the gallery's as the window opens, the others' when it is closed."""
-SHADOWS, EDGES = (26, 525), (200, 557)
+SHADOWS, EDGES = (26, 557), (200, 589)
 """In the panel of light, where that alone is open."""
-AROUND, MIRROR = (200, 487), (110, 647)
+AROUND, MIRROR = (200, 519), (110, 679)
 """In the panel of colours, where that alone is open; the mirror's slider is at 0."""
+SECOND, LOWER_BOX, ADD = (150, 57), (150, 104), (290, 164)
+"""Where there are two surfaces: the second in the list, the formula box, and the button for one more."""
 ASIDE = (100, 101)
 """A place where nothing happens."""
 ROW = 22
@@ -128,6 +130,31 @@ def test_a_person_turns_on_shadows_glass_and_surroundings(at_window: Callable[..
     person.wait("picture")
     shown(zs.Material(reflectance=1.0), "sky", antialias=4)
     person.close(window)
+    out, err = person.process.communicate(timeout=60)
+    assert (person.process.returncode, "Traceback" in out + err) == (0, False), err
+
+
+def test_a_person_edits_the_second_of_two_surfaces_and_adds_one(at_window: Callable[..., Any], tmp_path: Path) -> None:
+    place = tmp_path / "two.toml"
+    ball = zs.surface("x^2 + y^2 + z^2 = a", {"a": 1.0}, bounds=2.0)
+    ground = zs.surface("z + 1", bounds=zs.Box((-3, -3, -1.1), (3, 3, -0.9)))
+    zs.save(zs.Scene([ball, ground.with_material(zs.Material(front=(0, 1, 0)))]), place)
+    person = at_window(str(place), "-d", "cpu")
+    first = person.wait("picture")
+    assert first["params"] == {"1.a": 1.0}
+    wanted = zs.render(zs.load(place), (first["size"][0], first["size"][1]), device="cpu")
+    assert np.abs(person.screen()[PANE].astype(int) - wanted.pixels[PANE[0]].astype(int)).max() <= 1
+    # The second surface is chosen, and what is typed is its formula.
+    person.do("mousemove", *SECOND)
+    person.do("click", 1)
+    time.sleep(0.5)
+    person.replace_text(LOWER_BOX, "z + b")
+    assert person.wait("formula")["params"] == {"b": 1.0}
+    person.wait("picture", lambda facts: facts["params"] == {"1.a": 1.0, "2.b": 1.0})
+    person.do("mousemove", *ADD)
+    person.do("click", 1)
+    person.wait("picture", lambda facts: "3.c" in facts["params"])
+    person.close(person.window())
     out, err = person.process.communicate(timeout=60)
     assert (person.process.returncode, "Traceback" in out + err) == (0, False), err
 

@@ -8,7 +8,15 @@ from dataclasses import replace
 
 import click
 
-from zeroset.cli.source import FormulaCommand, find_scene, read_bounds, read_method, read_parameter, read_size
+from zeroset.cli.source import (
+    FormulaCommand,
+    find_scene,
+    read_bounds,
+    read_method,
+    read_parameter,
+    read_size,
+    with_isovalues,
+)
 from zeroset.errors import UnknownNameError
 from zeroset.scene.scene import Scene
 
@@ -23,6 +31,7 @@ FIRST = "barth-sextic"
 @click.option("-m", "--method", default="auto", show_default=True, help="Ray method, as for render.")
 @click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
 @click.option("-t", "--tolerance", type=float, help="World length to which roots are found.")
+@click.option("--isovalues", metavar="V,V,...", help="Draw f = v for each of these values, instead of f = 0.")
 @click.option("-s", "--size", default="1280x800", show_default=True, help="Size of the window.")
 @click.option("--log", metavar="FILE", help="Write what happens to a file, one JSON object a line.")
 def command(
@@ -32,15 +41,16 @@ def command(
     method: str,
     device: str,
     tolerance: float | None,
+    isovalues: str | None,
     size: str,
     log: str | None,
 ) -> None:
-    """Show SOURCE in a window: turn it, change its formula, move its parameters."""
+    """Show SOURCE in a window: turn it, change its formulas, move its parameters."""
     from zeroset.view.log import Log
     from zeroset.view.show import start, window
 
-    scene, text = _find(source, params, bounds)
-    state = start(scene, text, read_method(method), device, tolerance)
+    scene, texts = _find(source, params, bounds)
+    state = start(with_isovalues(scene, isovalues), texts, read_method(method), device, tolerance)
     if not window(state, read_size(size), Log(log)):
         # Something is still being compiled, which cannot be interrupted and which nobody waits for any more.
         sys.stdout.flush()
@@ -48,8 +58,8 @@ def command(
         os._exit(0)
 
 
-def _find(source: str, params: tuple[str, ...], bounds: str | None) -> tuple[Scene, str]:
-    """The scene, and the text for the formula box; single letters without a value become parameters."""
+def _find(source: str, params: tuple[str, ...], bounds: str | None) -> tuple[Scene, tuple[str, ...]]:
+    """The scene, and the text for each formula box; single letters without a value become parameters."""
     from zeroset.view.show import scene_of
     from zeroset.view.state import BACKGROUND
 
@@ -60,7 +70,9 @@ def _find(source: str, params: tuple[str, ...], bounds: str | None) -> tuple[Sce
 
         limits = None if bounds is None else read_bounds(bounds)
         scene = Scene(read(source, dict(map(read_parameter, params)), bounds=limits).surface)
-    scene, formula = scene_of(scene)
-    text = formula if scene.surface.name or source.endswith(".toml") else source
+    scene, texts = scene_of(scene)
+    if not (scene.surface.name or source.endswith(".toml")):
+        # The formula as it was written.
+        texts = (source,)
     # A scene file says what lies behind; a formula or a name leaves it to the window.
-    return (scene if source.endswith(".toml") else replace(scene, background=BACKGROUND)), text
+    return (scene if source.endswith(".toml") else replace(scene, background=BACKGROUND)), texts

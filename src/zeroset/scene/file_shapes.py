@@ -204,11 +204,15 @@ def shapes_data(thing: Drawable) -> dict[str, Any]:
     things = thing.things if isinstance(thing, Several) else (thing,)
     names = _Names(things)
     tables = [_surface_data(part, names.of[part]) for part in names.parts]
+    taken = set(names.of.values())
     for each in things:
+        # A name means one thing in a file: what comes later and is called the same goes without.
+        name = "" if each.name in taken else each.name
+        taken.add(name)
         if isinstance(each, Surface):
-            tables.append(_surface_data(each, each.name))
+            tables.append(_surface_data(each, name))
         else:
-            table: dict[str, Any] = {"name": each.name} if each.name else {}
+            table: dict[str, Any] = {"name": name} if name else {}
             table["solid"] = solid_text(each, names.of)
             tables.append(table if each.bounds is None else {**table, "bounds": bounds_data(each.bounds)})
     return {"surfaces": tables}

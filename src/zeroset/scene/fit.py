@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from zeroset.arith import F64, Interval, IntervalSystem
 from zeroset.scene.bounds import Ball
+from zeroset.scene.parameters import LARGEST
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface
 
@@ -54,6 +55,21 @@ def fit_bounds(thing: Surface | Solid) -> Ball:
     if about_origin <= 1.1 * radius:
         return Ball(about_origin * 1.01)
     return Ball(radius * 1.01, (float(center[0]), float(center[1]), float(center[2])))
+
+
+def values_at(surface: Surface, points: Corners) -> Corners:
+    """f at points, (N, 3), as closely as an enclosure tells it; NaN where it is not defined, or too large.
+
+    Example:
+        >>> import zeroset as zs
+        >>> values_at(zs.surface("x^2 + y^2 - 1"), np.array([[0.0, 0.0, 5.0], [2.0, 0.0, 0.0]])).round(9).tolist()
+        [-1.0, 3.0]
+    """
+    f = _over(surface, IntervalSystem(F64), points, points)
+    low, high = np.asarray(f.lo), np.asarray(f.hi)
+    # Ends near the largest floats say that nothing is known.
+    known = np.maximum(np.abs(low), np.abs(high)) < LARGEST
+    return np.broadcast_to(np.where(known, 0.5 * (low + high), np.nan), (len(points),))
 
 
 def _split(low: Corners, high: Corners) -> tuple[Corners, Corners]:

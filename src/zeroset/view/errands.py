@@ -12,7 +12,7 @@ import numpy as np
 from zeroset.atomic import check_writable, replacing
 from zeroset.errors import ZerosetError
 from zeroset.view import snippet
-from zeroset.view.state import dressed
+from zeroset.view.item import Item
 from zeroset.view.worker import told
 
 if TYPE_CHECKING:
@@ -102,14 +102,14 @@ def _copy(session: Session, text: str, what: str) -> None:
 
 
 def gallery(session: Session, value: str) -> None:
-    """Show a surface of the gallery."""
+    """Show a surface of the gallery in place of the chosen one, in its colours."""
     from zeroset.shelf import gallery as shelf
     from zeroset.surfaces import entry
 
-    state = session.state
-    surface = shelf[value]
-    session.state = replace(state, text=entry(value).formula, spans={}, motions={}, flying=False)
-    session.show(replace(state.scene, surface=surface, camera=None, material=dressed(state.material, surface)))
+    state = replace(session.state.edited(text=entry(value).formula), flying=False)
+    session.state = state
+    before = state.item
+    session.show(Item(before.key, before.text, shelf[value].with_material(None), before.material, values=before.known))
 
 
 def fit_bounds(session: Session, value: str) -> None:
@@ -119,7 +119,7 @@ def fit_bounds(session: Session, value: str) -> None:
 
 def declare(session: Session, value: str) -> None:
     """Take a longer name for a parameter."""
-    session.state = replace(session.state, named=session.state.named | {value})
+    session.state = session.state.edited(named=session.state.item.named | {value})
     session.read()
 
 

@@ -7,7 +7,7 @@ well be a slip of the keyboard: the error says so, and the user may declare it a
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from zeroset.errors import FormulaError, UnknownNameError, ZerosetError, excerpt
@@ -21,8 +21,6 @@ FRESH = 1.0
 """Value of a parameter that has none yet."""
 MOST_NEW = 32
 """Letters that one formula may make into parameters; the alphabet has fewer."""
-
-
 ALIKE = 0.75
 """Share of characters in common from which on two formulas are taken for versions of one."""
 LONG = 400
@@ -36,12 +34,10 @@ class Reading:
     Attributes:
         surface: what it means, with a value for every parameter.
         fresh: parameters that had no value before.
-        refit: whether its bounds are to be fitted.
     """
 
     surface: Surface
     fresh: tuple[str, ...] = ()
-    refit: bool = True
 
 
 def read(
@@ -80,17 +76,31 @@ def read(
 
 @dataclass(frozen=True)
 class Text:
-    """A formula to be read: what ``read`` is given, and whether its bounds are to be fitted."""
+    """A formula that is to be read: what ``read`` is given, and what is to come of it.
 
+    Attributes:
+        key: of the surface in whose box it stands.
+        refit: whether the surface's bounds are to be fitted.
+    """
+
+    key: int
     text: str
     values: dict[str, Any]
     named: frozenset[str]
     refit: bool
 
 
-def read_typed(wanted: Text, superseded: Superseded) -> Reading:
+@dataclass(frozen=True)
+class Read:
+    """A formula that has been read as it was asked."""
+
+    asked: Text
+    reading: Reading
+
+
+def read_typed(asked: Text, superseded: Superseded) -> Read:
     """What has been typed, read; a job of the window's reader."""
-    return replace(read(wanted.text, wanted.values, wanted.named), refit=wanted.refit)
+    return Read(asked, read(asked.text, asked.values, asked.named))
 
 
 def _parsed(text: str, params: set[str], arrays: set[str]) -> tuple[Expr, list[str]]:
@@ -169,8 +179,3 @@ def differ(before: str, after: str) -> bool:
     from difflib import SequenceMatcher
 
     return SequenceMatcher(None, before[:LONG], after[:LONG], autojunk=False).ratio() < ALIKE
-
-
-def values_of(shape: Surface) -> dict[str, Any]:
-    """The values of all parameters and arrays of a surface."""
-    return {**shape.params, **shape.arrays}

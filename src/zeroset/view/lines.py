@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -12,6 +11,7 @@ import numpy.typing as npt
 from zeroset.scene.bounds import Ball, Bounds
 from zeroset.view import orbit
 from zeroset.view.painting import Picture
+from zeroset.view.spans import nice_step
 from zeroset.view.state import State
 
 Array = npt.NDArray[np.float64]
@@ -50,17 +50,6 @@ class Label:
     color: Color
 
 
-def nice_step(length: float) -> float:
-    """A round number, 1, 2 or 5 times a power of ten, that goes into a length some ten times at most.
-
-    Example:
-        >>> nice_step(3.0), nice_step(40.0)
-        (0.5, 5.0)
-    """
-    unit = 10.0 ** math.floor(math.log10(length / 8.0))
-    return next(step * unit for step in (1.0, 2.0, 5.0, 10.0) if step * unit >= length / 8.0 * 0.75)
-
-
 def strokes(state: State, picture: Picture, size: tuple[float, float]) -> tuple[list[Stroke], list[Label]]:
     """Everything that is switched on, as the camera of the picture sees it."""
     bounds = state.bounds
@@ -81,8 +70,9 @@ def _curves(state: State, bounds: Bounds) -> Iterator[tuple[Array, Color, float]
         for line in _grid(bounds):
             yield line, GRID_COLOR, 1.0
     if state.outline:
-        for line in _outline(bounds):
-            yield line, OUTLINE_COLOR, 1.0
+        for own in dict.fromkeys(item.surface.fitted for item in state.items):
+            for line in _outline(own):
+                yield line, OUTLINE_COLOR, 1.0
     if state.axes:
         for name, tip in _tips(bounds):
             origin = np.asarray(bounds.center)

@@ -7,7 +7,7 @@ Every line has ``event`` and ``seconds`` since the window was opened; times are 
     error     text
     camera    it has come to rest: eye, target, fov, height
     picture   a full picture: size, milliseconds, waited (from asking to showing, drawing aside), params, hits,
-              unresolved, certified, overlay, method, device
+              unresolved, certified, overlay, method, device; params of several surfaces are called 1.a, 2.a
     copied    text
     saved     path
     closed

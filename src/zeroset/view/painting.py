@@ -1,10 +1,9 @@
-"""The jobs of the drawing threads: a picture for the window, and the first picture of a new formula."""
+"""The job of the drawing thread: a picture for the window."""
 
 from __future__ import annotations
 
-import math
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,19 +12,11 @@ import numpy.typing as npt
 from zeroset.rendering.image import Image
 from zeroset.rendering.render import render
 from zeroset.runtime import get_device
-from zeroset.scene.bounds import Bounds
-from zeroset.scene.camera import Camera, fit_camera
+from zeroset.scene.camera import Camera
 from zeroset.scene.scene import Scene
-from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
-from zeroset.view import formula
-from zeroset.view.orbit import refitted
 from zeroset.view.overlay import Legend, coloured
-from zeroset.view.state import dressed
 from zeroset.view.worker import GivenUp, Superseded
-
-FIRST = 320
-"""Longer side of the first picture of a formula: it is there as soon as the formula is compiled."""
 
 DRAFT_DEPTH = 2
 """Surfaces that a ray may meet after the first while something moves: into glass and out again."""
@@ -50,6 +41,11 @@ class Shot:
     moving: bool
     antialias: int = 1
     asked: float = field(default_factory=time.perf_counter, compare=False)
+
+    @property
+    def formulas(self) -> tuple[str, ...]:
+        """What tells the formulas of its surfaces from others."""
+        return tuple(surface.field.digest for surface in self.scene.surface.surfaces)
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +77,7 @@ class Picture:
             "size": list(shot.size),
             "milliseconds": round(self.milliseconds, 2),
             "waited": round((time.perf_counter() - shot.asked) * 1e3 - self.milliseconds, 2),
-            "params": dict(shot.scene.plain("the window").params),
+            "params": parameters(shot.scene),
             "hits": self.hits,
             "unresolved": self.unresolved,
             "certified": self.certified,
@@ -97,6 +93,21 @@ class Picture:
         camera = self.shot.scene.camera
         assert camera is not None
         return camera
+
+
+def parameters(scene: Scene) -> dict[str, float]:
+    """The values of all parameters; of several surfaces with the surface's number before each name.
+
+    Example:
+        >>> import zeroset as zs
+        >>> ball = zs.surface("x^2 + y^2 + z^2 = r", {"r": 2.0})
+        >>> parameters(Scene(ball)), parameters(Scene([ball, ball.with_params(r=3.0)]))
+        ({'r': 2.0}, {'1.r': 2.0, '2.r': 3.0})
+    """
+    surfaces = scene.surface.surfaces
+    if len(surfaces) == 1:
+        return dict(surfaces[0].params)
+    return {f"{i}.{name}": value for i, surface in enumerate(surfaces, 1) for name, value in surface.params.items()}
 
 
 def paint(shot: Shot, superseded: Superseded) -> Picture:
@@ -129,79 +140,3 @@ def _kept(shot: Shot, image: Image, milliseconds: float) -> Picture:
     pixels[..., :3] = colours
     depth, device = image.aov("depth"), get_device(shot.device).name
     return Picture(shot, pixels, depth, legend, milliseconds, image.hits, image.unresolved, image.certified, device)
-
-
-@dataclass(frozen=True)
-class Wish:
-    """A formula, or a surface from the gallery, that is to be shown.
-
-    Attributes:
-        source: text that has been read, or a scene with everything that comes with it.
-        bounds: the bounds to keep if the surface is seen in them; None fits it.
-        seen: bounds of what is shown now: the camera follows from them to new ones.
-        shot: how the picture is drawn.
-    """
-
-    source: formula.Reading | Scene
-    bounds: Bounds | None
-    seen: Bounds
-    shot: Shot
-
-
-@dataclass(frozen=True, eq=False)
-class Shown:
-    """A formula that has been compiled, with its first picture.
-
-    Attributes:
-        refit: whether its bounds were fitted.
-    """
-
-    wish: Wish
-    surface: Surface
-    camera: Camera
-    refit: bool
-    fresh: tuple[str, ...]
-    picture: Picture
-
-
-def compile_and_show(wish: Wish, superseded: Superseded) -> Shown:
-    """Make the surface, compile it, and draw it small."""
-    if isinstance(wish.source, Scene):
-        return _show_scene(wish, wish.source)
-    reading = replace(wish.source, surface=replace(wish.source.surface, bounds=wish.bounds))
-    shown = _show(wish, reading, wish.bounds is None)
-    if wish.bounds is not None and not shown.picture.hits and not superseded():
-        # Nothing of it lies in the old bounds: look where it is.
-        shown = _show(wish, replace(reading, surface=replace(reading.surface, bounds=None)), True)
-    return shown
-
-
-def _show_scene(wish: Wish, scene: Scene) -> Shown:
-    shape = scene.plain("the window")
-    refit = shape.bounds is None
-    surface = shape.with_bounds(shape.fitted)
-    camera = scene.camera or surface.camera or fit_camera(surface.fitted)
-    return Shown(wish, surface, camera, refit, (), _first(wish.shot, surface, camera))
-
-
-def _show(wish: Wish, reading: formula.Reading, refit: bool) -> Shown:
-    surface = reading.surface.with_bounds(reading.surface.fitted)
-    camera = wish.shot.scene.camera
-    assert camera is not None
-    if not _alike(wish.seen, surface.fitted):
-        camera = refitted(camera, wish.seen, surface.fitted)
-    return Shown(wish, surface, camera, refit, reading.fresh, _first(wish.shot, surface, camera))
-
-
-def _first(shot: Shot, surface: Surface, camera: Camera) -> Picture:
-    width, height = shot.size
-    scale = min(1.0, FIRST / max(width, height))
-    size = max(1, round(width * scale)), max(1, round(height * scale))
-    scene = replace(shot.scene, surface=surface, camera=camera, material=dressed(shot.scene.material, surface))
-    return paint(replace(shot, scene=scene, size=size, moving=True), lambda: False)
-
-
-def _alike(before: Bounds, after: Bounds) -> bool:
-    """Whether bounds are so alike that the camera may stay where it is."""
-    apart = math.dist(before.center, after.center)
-    return apart < 0.15 * before.reach and 0.8 < after.reach / before.reach < 1.25

@@ -13,19 +13,19 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from zeroset.scene.scene import Scene
 from zeroset.view import errands, formula
+from zeroset.view.boxes import Boxes
+from zeroset.view.compiling import Shown, Wish, compile_and_show
 from zeroset.view.controls import Controls, Pane
+from zeroset.view.item import Item
 from zeroset.view.log import Log
 from zeroset.view.notes import Notes
 from zeroset.view.pace import Pace
-from zeroset.view.painting import Picture, Shot, Shown, Wish, compile_and_show, paint
+from zeroset.view.painting import Picture, Shot, paint
 from zeroset.view.standin import StandIn, slow_to_compile, structure
 from zeroset.view.state import State, advanced
 from zeroset.view.worker import Failed, Newest
 
-DEBOUNCE = 0.15
-"""Seconds without a keystroke before a formula is compiled."""
 REST = 0.15
 """Seconds without a change before the full picture is drawn."""
 COLUMNS = 42
@@ -43,7 +43,6 @@ class Session:
     Attributes:
         state: what the user has chosen; the window replaces it.
         picture: the last good picture.
-        complaint: what is wrong with the formula.
         trouble: why the picture could not be drawn, or "".
         times: milliseconds of the latest pictures.
         notes: messages to the user.
@@ -55,7 +54,6 @@ class Session:
         self.log = log
         self.controls = Controls()
         self.picture: Picture | None = None
-        self.complaint: formula.Complaint | None = None
         self.trouble = ""
         self.times: deque[float] = deque([0.0] * 120, maxlen=120)
         self.snippet = ""
@@ -63,13 +61,13 @@ class Session:
         self.size = (1, 1)
         self.notes = Notes(wake)
         self._painter: Newest[Shot, Picture] = Newest("painter", paint, wake)
-        self._reader: Newest[formula.Text, formula.Reading] = Newest("reader", formula.read_typed, wake)
-        self._compiler: Newest[Wish, Shown] = Newest("compiler", compile_and_show, wake)
+        self._reader: Newest[formula.Text, formula.Read] = Newest(
+            "reader", formula.read_typed, wake, lambda asked: asked.key
+        )
+        self._compiler: Newest[Wish, Shown] = Newest("compiler", compile_and_show, wake, lambda wish: wish.item.key)
         self._stand_in = StandIn(wake)
         self._pace = Pace()
-        self._values = formula.values_of(state.surface)
-        self._text, self._edited, self._shown_text = state.text, 0.0, state.text
-        self._asked_text = state.text
+        self._boxes = Boxes(state.items)
         self._wanted: Shot | None = None
         self._changed, self._refined, self._moving = 0.0, False, False
         self._ticked = time.perf_counter()
@@ -90,7 +88,11 @@ class Session:
     @property
     def resting(self) -> bool:
         """Whether nothing is to be done: background work may begin."""
-        return self._refined and not self.drawing and not self.compiling
+        return self._refined and not self.drawing and not self.compiling and not self._boxes.waiting(self.state.items)
+
+    def complaint(self, item: Item) -> formula.Complaint | None:
+        """What is wrong with the formula of a surface."""
+        return self._boxes.complaint(item)
 
     @property
     def stand_in(self) -> str:
@@ -128,7 +130,7 @@ class Session:
         self._compile(now)
         self._draw(now)
         flying = self.state.flying and bool(self.controls.keys)
-        waiting = self.state.text != self._asked_text or not self._refined
+        waiting = self._boxes.waiting(self.state.items) or not self._refined
         return self.state.playing or flying or waiting or bool(self.notes.latest)
 
     def catch_up(self) -> None:
@@ -150,55 +152,55 @@ class Session:
     # ---------------------------------------------------------------- formulas
 
     def _compile(self, now: float) -> None:
-        """Compile the text once it has been left alone for a moment."""
-        if self.state.text != self._text:
-            self._text, self._edited = self.state.text, now
-        if self._text != self._asked_text and now - self._edited >= DEBOUNCE:
-            self.read()
+        """Read the texts that have been left alone for a moment; what is a formula will be compiled and shown."""
+        for item in self._boxes.due(self.state.items, now):
+            refit = self._boxes.ask(item) or item.refit
+            self._reader.ask(formula.Text(item.key, item.text, item.known, item.named, refit))
 
     def read(self, refit: bool = False) -> None:
-        """Read the formula in the box, and show it if it is one; ``refit`` looks anew for where it is."""
-        state = self.state
-        self._text = self._asked_text = state.text
-        self._values |= formula.values_of(state.surface)
-        refit = refit or state.refit or formula.differ(self._shown_text, state.text)
-        self._reader.ask(formula.Text(state.text, dict(self._values), state.named, refit))
+        """Read the chosen formula again; ``refit`` looks anew for where it is."""
+        self._boxes.again(self.state.item, refit)
 
-    def show(self, source: formula.Reading | Scene, refit: bool = False) -> None:
-        """Compile and show what has been read, or a scene whose formula is in the box already."""
-        if isinstance(source, Scene):
-            self._text = self._asked_text = self.state.text
-            self.complaint = None
-        keep = None if refit else self.state.bounds
+    def show(self, item: Item, typed: bool = False) -> None:
+        """Compile and show another version of a surface: a typed one, or one whose formula is in the box already."""
+        if not typed:
+            self._boxes.take(item)
         # The first picture of a formula is the CPU's where the GPU would be long in coming.
         shot = self._shot(True)
         shot = replace(shot, device="cpu") if slow_to_compile(shot.device) else shot
-        self._compiler.ask(Wish(source, keep, self.state.bounds, shot))
+        self._compiler.ask(Wish(self.state, item, typed, shot))
 
-    def _take_reading(self, reading: formula.Reading | Failed[formula.Text]) -> None:
-        """What has become of the text: on to the compiler, or a complaint."""
-        if isinstance(reading, Failed):
-            self._complain(reading.error, reading.text)
+    def _take_reading(self, answer: formula.Read | Failed[formula.Text]) -> None:
+        """What has become of a text: on to the compiler, or a complaint."""
+        asked = answer.job if isinstance(answer, Failed) else answer.asked
+        item = self.state.find(asked.key)
+        if item is None:
             return
-        self.complaint = None
-        self.show(reading, reading.refit)
+        if isinstance(answer, Failed):
+            self._complain(item, answer.error, answer.text)
+            return
+        self._boxes.complain(item, None)
+        surface = answer.reading.surface
+        if not asked.refit:
+            surface = surface.with_bounds(item.surface.fitted)
+        self.show(replace(item, surface=surface), typed=True)
 
     def _take_formula(self, shown: Shown | Failed[Wish]) -> None:
-        if isinstance(shown, Failed):
-            self._complain(shown.error, shown.text)
+        wish = shown.job if isinstance(shown, Failed) else shown.wish
+        item = self.state.find(wish.item.key)
+        if item is None:
             return
-        wish, state = shown.wish, self.state
-        kept = {k: v for k, v in state.surface.params.items() if k in shown.surface.params}
-        typed = not isinstance(wish.source, Scene)
-        surface = shown.surface.with_params(**kept) if typed else shown.surface
+        if isinstance(shown, Failed):
+            self._complain(item, shown.error, shown.text)
+            return
+        state, before = self.state.with_item(shown.merged(item)), wish.state.camera
         # Whoever has turned the surface meanwhile keeps the view.
-        still = state.camera == wish.shot.scene.camera or not typed
-        camera = shown.camera if still else state.camera
-        home = shown.camera if shown.camera != wish.shot.scene.camera or not typed else state.home
-        self.state = replace(state, surface=surface, camera=camera, home=home, refit=shown.refit)
-        self._values |= formula.values_of(surface)
+        camera = shown.camera if self.state.camera == before or not wish.typed else self.state.camera
+        home = shown.camera if shown.camera != before or not wish.typed else self.state.home
+        self.state = replace(state, camera=camera, home=home)
         self.picture, self.trouble = shown.picture, ""
-        self._shown_text = self._asked_text
+        self._boxes.show(item)
+        surface = shown.item.surface
         self.log.say(
             "formula",
             formula=surface.formula,
@@ -207,8 +209,8 @@ class Session:
             milliseconds=round((time.perf_counter() - wish.shot.asked) * 1e3, 1),
         )
 
-    def _complain(self, error: Exception, text: str) -> None:
-        self.complaint = formula.complaint(error, text, COLUMNS)
+    def _complain(self, item: Item, error: Exception, text: str) -> None:
+        self._boxes.complain(item, formula.complaint(error, text, COLUMNS))
         self.log.say("error", text=text)
 
     # ---------------------------------------------------------------- pictures
@@ -242,7 +244,7 @@ class Session:
             self.trouble = picture.text
             return
         shot, before = picture.shot, self.picture
-        if shot.scene.plain("the window").field.digest != self.state.surface.field.digest:
+        if shot.formulas != tuple(item.surface.field.digest for item in self.state.items):
             return
         self.picture, self.trouble = picture, ""
         self.times.append(picture.milliseconds)

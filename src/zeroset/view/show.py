@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from zeroset.errors import ParameterError, ViewError
+from zeroset.rendering.drawn import as_drawn
 from zeroset.runtime import get_device
 from zeroset.scene.camera import Camera
 from zeroset.scene.plain import merged
-from zeroset.scene.scene import Scene
-from zeroset.scene.several import Several, as_drawable, plain_surface
+from zeroset.scene.scene import Scene, Shown, as_scene
+from zeroset.scene.several import Drawable, Several
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
 from zeroset.solve.method import Method, resolve_method
@@ -30,7 +32,7 @@ NOTEBOOK_SIZE = (960, 600)
 
 
 def show(
-    source: Surface | Solid | Scene | str,
+    source: Shown,
     size: tuple[int, int] | None = None,
     camera: Camera | None = None,
     method: str | Method = "auto",
@@ -38,13 +40,13 @@ def show(
     tolerance: float | None = None,
     log: str | Path | None = None,
 ) -> None:
-    """Show a surface in a window in which it can be turned, and its formula changed.
+    """Show surfaces in a window in which they can be turned, and their formulas changed.
 
     In a script it returns when the window is closed. In a notebook it shows a widget and returns at once.
 
     Args:
-        source: a Surface, a Solid (shown as one f), a Scene, or a formula as text, in which single letters may be
-            parameters.
+        source: a Surface, a Solid (shown as one f), a sequence of both, a Scene, or a formula as text, in which single
+            letters may be parameters.
         size: of the window, in logical pixels.
         camera: where to begin; None takes the scene's or the surface's own, or one that fits the bounds.
         method: as for ``render``; it can be changed in the window.
@@ -70,38 +72,46 @@ def show(
 
 
 def start(
-    scene: Scene, text: str, method: Method, device: str, tolerance: float | None, camera: Camera | None = None
+    scene: Scene,
+    texts: Sequence[str],
+    method: Method,
+    device: str,
+    tolerance: float | None,
+    camera: Camera | None = None,
 ) -> State:
     """The state that a window begins with, checked as far as that is quick."""
     get_device(device)
-    method.check(scene.plain("the window").field)
-    state = opened(scene, text, method, device, tolerance)
+    as_drawn(scene.surface).check(method)
+    state = opened(scene, texts, method, device, tolerance)
     return state if camera is None else replace(state, camera=camera, home=camera)
 
 
-def scene_of(source: Surface | Solid | Scene | str) -> tuple[Scene, str]:
-    """The scene that a window opens with, and the text in its formula box. A solid becomes one formula.
+def scene_of(source: Shown) -> tuple[Scene, tuple[str, ...]]:
+    """The scene that a window opens with, and the text in each of its formula boxes. A solid becomes one formula.
 
     Example:
-        >>> scene, text = scene_of("x^2 + a*y^2 = 1")
-        >>> dict(scene.surface.params), text
-        ({'a': 1.0}, 'x^2 + a*y^2 = 1')
+        >>> scene, texts = scene_of("x^2 + a*y^2 = 1")
+        >>> dict(scene.surface.params), texts
+        ({'a': 1.0}, ('x^2 + a*y^2 = 1',))
     """
-    if isinstance(source, Scene):
-        if isinstance(source.surface, Solid):
-            source = replace(source, surface=merged(source.surface))
-        return source, _text(source.plain("the window"))
     if isinstance(source, str):
         from zeroset.view.formula import read
 
-        return Scene(read(source, {}).surface, background=BACKGROUND), source
-    if isinstance(source, Solid):
-        source = merged(source)
-    if isinstance(source, (Several, list, tuple)):
-        source = plain_surface(as_drawable(source), "the window")
-    if not isinstance(source, Surface):
-        source = surface(source)
-    return Scene(source, background=BACKGROUND), _text(source)
+        return Scene(read(source, {}).surface, background=BACKGROUND), (source,)
+    # Whatever else can be made into a surface can be shown: a function, a SymPy expression.
+    given = source if isinstance(source, (Scene, Surface, Solid, Several, list, tuple)) else surface(source)
+    scene = as_scene(given)
+    scene = replace(scene, surface=_without_solids(scene.surface))
+    if not isinstance(source, Scene):
+        scene = replace(scene, background=BACKGROUND)
+    return scene, tuple(map(_text, scene.surface.surfaces))
+
+
+def _without_solids(thing: Drawable) -> Drawable:
+    """The same with every solid as one f."""
+    if isinstance(thing, Several):
+        return Several(tuple(merged(each) if isinstance(each, Solid) else each for each in thing))
+    return merged(thing) if isinstance(thing, Solid) else thing
 
 
 def _text(shape: Surface) -> str:
@@ -126,7 +136,8 @@ def window(state: State, size: tuple[int, int], log: Log) -> bool:
     canvas.check_packages(canvas.DESKTOP, "desktop")
     canvas.check_display()
     adapter = canvas.find_adapter()
-    title = f"zeroset: {state.surface.name}" if state.surface.name else "zeroset"
+    names = [item.surface.name for item in state.items if item.surface.name]
+    title = f"zeroset: {', '.join(names)}" if names else "zeroset"
     surface_, loop = canvas.desktop_canvas(size, title, adapter is not None)
     if adapter is None:
         print("no graphics adapter was found: the window has no panels, only mouse and keys", file=sys.stderr)

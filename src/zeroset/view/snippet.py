@@ -11,7 +11,8 @@ from zeroset.scene.camera import Camera
 from zeroset.scene.coloring import Coloring
 from zeroset.scene.environment import Environment
 from zeroset.scene.file import dumps
-from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Light, Material
+from zeroset.scene.isovalues import colors_of
+from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 from zeroset.view.state import State
@@ -19,8 +20,8 @@ from zeroset.view.state import State
 
 def python(state: State, size: tuple[int, int]) -> str:
     """A program that draws what the window shows and saves it as ``picture.png``; colours of overlays apart."""
-    lines = ["import zeroset as zs", "", f"surface = {_surface(state.surface)}", f"camera = {_camera(state.camera)}"]
-    scene = ["surface", "camera"]
+    lines = ["import zeroset as zs", "", *_surfaces(state), f"camera = {_camera(state.camera)}"]
+    scene = ["surfaces" if state.several else "surface", "camera"]
     material = state.scene.material
     if material != Material():
         scene.append(f"material={_changed('zs.Material', material, Material())}")
@@ -59,20 +60,25 @@ def command(state: State, size: tuple[int, int]) -> str:
     if not _plain(state):
         scene = dumps(state.scene).rstrip("\n")
         return f"cat > scene.toml <<'END'\n{scene}\nEND\n{shlex.join(['zeroset', 'render', 'scene.toml', *rest])}\n"
-    return shlex.join(["zeroset", "render", state.surface.formula, *_places(state), *rest]) + "\n"
+    return shlex.join(["zeroset", "render", state.item.surface.formula, *_places(state), *rest]) + "\n"
 
 
 def _plain(state: State) -> bool:
     """Whether options alone say all that there is to say."""
-    bounds = state.bounds
-    lit = (state.material, state.lights, state.background) == (Material(), DEFAULT_LIGHTS, DEFAULT_BACKGROUND)
+    bounds, surface = state.bounds, state.item.drawn
+    if state.several or surface.arrays or surface.colors != _usual_colors(surface):
+        return False
+    lit = (state.item.material, state.lights, state.background) == (Material(), DEFAULT_LIGHTS, DEFAULT_BACKGROUND)
     lit = lit and not state.shadows and state.environment is None
-    return lit and not state.surface.arrays and (not isinstance(bounds, Ball) or not any(bounds.center))
+    return lit and (not isinstance(bounds, Ball) or not any(bounds.center))
 
 
 def _places(state: State) -> list[str]:
-    """Parameters, bounds and camera as options; with = where a value may begin with a minus sign."""
-    made = [f"--param={name}={value!r}" for name, value in state.surface.params.items()]
+    """Parameters, isovalues, bounds and camera as options; with = where a value may begin with a minus sign."""
+    surface = state.item.drawn
+    made = [f"--param={name}={value!r}" for name, value in surface.params.items()]
+    if surface.isovalues:
+        made.append("--isovalues=" + ",".join(map(repr, surface.isovalues)))
     bounds, camera = state.bounds, state.camera
     numbers = (bounds.radius,) if isinstance(bounds, Ball) else (*bounds.min, *bounds.max)
     made.append("--bounds=" + ",".join(map(repr, numbers)))
@@ -81,12 +87,30 @@ def _places(state: State) -> list[str]:
     return made
 
 
+def _usual_colors(surface: Surface) -> tuple[Color, ...]:
+    """The colours that isovalues get on the command line."""
+    return colors_of(None, tuple(range(len(surface.isovalues))))
+
+
+def _surfaces(state: State) -> list[str]:
+    """The lines that make what is drawn."""
+    made = state.drawn.surfaces
+    if not state.several:
+        return [f"surface = {_surface(made[0])}"]
+    return ["surfaces = [", *(f"    {_surface(surface)}," for surface in made), "]"]
+
+
 def _surface(surface: Surface) -> str:
     params: dict[str, Any] = {**surface.params, **{name: values.tolist() for name, values in surface.arrays.items()}}
     parts = [repr(surface.formula)]
     if params:
         parts.append(f"params={params!r}")
-    return f"zs.surface({', '.join([*parts, f'bounds={_bounds(surface.fitted)}'])})"
+    made = f"zs.surface({', '.join([*parts, f'bounds={_bounds(surface.fitted)}'])})"
+    if surface.isovalues:
+        made += f".with_isovalues({surface.isovalues!r}, colors={surface.colors!r})"
+    if surface.material is not None:
+        made += f".with_material({_changed('zs.Material', surface.material, Material())})"
+    return made
 
 
 def _bounds(bounds: Bounds) -> str:

@@ -10,26 +10,25 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from zeroset.errors import DeviceError
+from zeroset.rendering.drawn import as_drawn
 from zeroset.rendering.frame import settle
 from zeroset.rendering.shading import Lighting, Smooth
 from zeroset.runtime import get_device
-from zeroset.scene.bounds import bounds_kind
 from zeroset.view.painting import Shot, paint
 from zeroset.view.worker import Failed, Newest, Superseded
 
 SMALL = 32
 """Side of the picture that is drawn to compile everything."""
-Structure = tuple[str, str, str, Lighting, str, str]
+Structure = tuple[str, str, Lighting, str, str]
 
 
 def structure(shot: Shot) -> Structure:
     """What the kernels of a picture depend on."""
-    surface = shot.scene.plain("the window")
     # A picture that moves has no smooth edges, but both are compiled together.
     light = Lighting.of(shot.scene, Smooth(shot.antialias))
     coloring = shot.scene.material.coloring
     by = "" if coloring is None else coloring.by
-    return surface.field.digest, shot.method.structure(), bounds_kind(surface.bounds), light, shot.device, by
+    return as_drawn(shot.scene.surface).shape.digest, shot.method.structure(), light, shot.device, by
 
 
 class StandIn:

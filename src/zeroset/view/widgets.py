@@ -8,6 +8,13 @@ from zeroset.rendering.shading import srgb
 from zeroset.scene.light import Color
 from zeroset.view import theme
 
+REMOVE = "\uf00d"
+"""Icon of Font Awesome: a cross."""
+SMALL = 28.0
+"""Width of a button with an icon."""
+ROOM = SMALL + 8.0
+"""What such a button at the end of a row takes of it."""
+
 
 def label(imgui: Any, text: str, hint: str = "") -> None:
     """Begin a row: its name on the left, and room for a field to the right edge."""
@@ -58,6 +65,14 @@ def color(imgui: Any, text: str, value: Color) -> tuple[bool, Color]:
     changed, shown = imgui.color_edit3(f"##{text}", [srgb(v) for v in value], flags)
     red, green, blue = (linear(float(v)) for v in shown[:3])
     return changed, (red, green, blue)
+
+
+def remover(imgui: Any, hint: str) -> bool:
+    """A button at the end of a row that takes away what the row is about; gives whether it was clicked."""
+    imgui.same_line()
+    clicked = imgui.button(REMOVE, (SMALL, 0.0))
+    imgui.set_item_tooltip(hint)
+    return bool(clicked)
 
 
 def linear(encoded: float) -> float:

@@ -8,7 +8,7 @@ from zeroset.view import hud, theme
 from zeroset.view.atlas import Atlas
 from zeroset.view.canvas import device_on, plain_format
 from zeroset.view.controls import Pane
-from zeroset.view.panels import PANELS, formula
+from zeroset.view.panels import PANELS, formula, surfaces
 from zeroset.view.panels.context import Context
 from zeroset.view.picture import PictureView
 from zeroset.view.session import Session
@@ -125,9 +125,10 @@ class Window:
         flags = imgui.WindowFlags_.no_decoration & ~imgui.WindowFlags_.no_scrollbar
         flags |= imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_saved_settings
         imgui.begin("##sidebar", None, flags | imgui.WindowFlags_.no_bring_to_front_on_focus)
+        state = surfaces.draw(state, self._context)
         state = formula.draw(state, self._context)
         for title, draw, opened in PANELS:
-            imgui.set_next_item_open(opened, imgui.Cond_.first_use_ever)
+            imgui.set_next_item_open(opened(state), imgui.Cond_.first_use_ever)
             if imgui.collapsing_header(title):
                 imgui.push_id(title)
                 state = draw(state, self._context)

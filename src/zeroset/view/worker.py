@@ -1,4 +1,4 @@
-"""A thread that does the newest thing asked of it: what was asked before and not yet begun is forgotten.
+"""A thread that does the newest thing asked of it: what was asked before about the same and not yet begun is forgotten.
 
 The window must never wait for a compiler or a picture, so both happen on such threads. A job learns whether a newer one
 is waiting and may give up; an error of any kind becomes an answer. The threads are daemons: no job keeps the process
@@ -8,7 +8,7 @@ alive after the window is gone.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
@@ -47,6 +47,7 @@ class Newest(Generic[Job, Answer]):
         name: of the thread.
         work: does a job; is given the job and whether it is superseded.
         wake: called, on the thread, when there is an answer.
+        about: what a job is about; jobs about different things do not take each other's place.
 
     Example:
         >>> double = Newest("double", lambda number, superseded: 2 * number)
@@ -60,10 +61,15 @@ class Newest(Generic[Job, Answer]):
     """
 
     def __init__(
-        self, name: str, work: Callable[[Job, Superseded], Answer], wake: Callable[[], object] = lambda: None
+        self,
+        name: str,
+        work: Callable[[Job, Superseded], Answer],
+        wake: Callable[[], object] = lambda: None,
+        about: Callable[[Job], Hashable] = lambda job: None,
     ) -> None:
         self._work = work
         self._wake = wake
+        self._about = about
         self._changed = threading.Condition()
         self._next: list[Job] = []
         self._answers: list[Answer | Failed[Job]] = []
@@ -73,9 +79,10 @@ class Newest(Generic[Job, Answer]):
         self._thread.start()
 
     def ask(self, job: Job) -> None:
-        """Do this next, in place of what is waiting."""
+        """Do this, in place of what is waiting about the same."""
         with self._changed:
-            self._next = [job]
+            self._next = [waiting for waiting in self._next if self._about(waiting) != self._about(job)]
+            self._next.append(job)
             self._changed.notify_all()
 
     def answers(self) -> list[Answer | Failed[Job]]:
@@ -104,8 +111,8 @@ class Newest(Generic[Job, Answer]):
         self._thread.join(timeout)
         return not self._thread.is_alive()
 
-    def _superseded(self) -> bool:
-        return self._closed or bool(self._next)
+    def _superseded(self, job: Job) -> bool:
+        return self._closed or any(self._about(waiting) == self._about(job) for waiting in tuple(self._next))
 
     def _live(self) -> None:
         while True:
@@ -113,7 +120,7 @@ class Newest(Generic[Job, Answer]):
                 self._changed.wait_for(lambda: self._next or self._closed)
                 if self._closed:
                     return
-                job = self._next.pop()
+                job = self._next.pop(0)
                 self._busy = True
             answer = self._answered(job)
             with self._changed:
@@ -127,7 +134,7 @@ class Newest(Generic[Job, Answer]):
     def _answered(self, job: Job) -> list[Answer | Failed[Job]]:
         """The answer to a job; none where it gave up."""
         try:
-            return [self._work(job, self._superseded)]
+            return [self._work(job, lambda: self._superseded(job))]
         except GivenUp:
             return []
         except Exception as error:

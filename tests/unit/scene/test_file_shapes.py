@@ -117,6 +117,15 @@ ONE = '[[surfaces]]\nname = "a"\nformula = "x"\n'
 TWO = ONE + '[[surfaces]]\nname = "b"\nformula = "y"\n'
 
 
+def test_a_name_that_several_have_is_kept_by_the_first() -> None:
+    ball = zs.surface("x^2 + y^2 + z^2 = 1", bounds=1.5, name="ball")
+    again = loads(dumps([ball, ball.with_bounds(2.0), (ball & zs.surface("x", name="half"))]))
+    assert isinstance(again.surface, Several)
+    first, second, solid = again.surface
+    assert [first.name, second.name, solid.name] == ["ball", "", ""]
+    assert [part.formula for part in solid.surfaces] == [ball.formula, "x"]
+
+
 @pytest.mark.parametrize(
     ("text", "line", "said"),
     [

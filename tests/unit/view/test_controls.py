@@ -23,7 +23,7 @@ PANE = Pane(100.0, 0.0, 300.0, 200.0)
 @pytest.fixture(scope="module")
 def state() -> State:
     surface = zs.surface("x^2 + y^2 + a*z^2 = 1", {"a": 1.0}, bounds=1.2)
-    return opened(Scene(surface, zs.Camera(eye=(1.0, -4.0, 1.5))), "", resolve_method("auto"), "auto", None)
+    return opened(Scene(surface, zs.Camera(eye=(1.0, -4.0, 1.5))), ("",), resolve_method("auto"), "auto", None)
 
 
 @pytest.fixture(scope="module")

@@ -7,6 +7,7 @@ import pytest
 import zeroset as zs
 from zeroset.errors import FormulaError, UnknownNameError
 from zeroset.view import formula
+from zeroset.view.item import opened
 
 
 def test_letters_become_parameters_and_known_ones_keep_their_values() -> None:
@@ -42,7 +43,7 @@ def test_nothing_is_offered_for_what_is_called_or_indexed(text: str) -> None:
 
 
 def test_arrays_of_the_surface_before_are_known() -> None:
-    values = formula.values_of(zs.gallery["blinn-blobby"])
+    values = opened(0, zs.gallery["blinn-blobby"], "", zs.Material()).known
     reading = formula.read(zs.gallery["blinn-blobby"].formula + " + 0.001x", values)
     assert set(reading.surface.arrays) == set(zs.gallery["blinn-blobby"].arrays)
 

@@ -10,8 +10,9 @@ import pytest
 import zeroset as zs
 from zeroset.scene.scene import Scene
 from zeroset.solve import resolve_method
-from zeroset.view.lines import GRID_COLOR, OUTLINE_COLOR, nice_step, strokes
+from zeroset.view.lines import GRID_COLOR, OUTLINE_COLOR, strokes
 from zeroset.view.painting import Picture, Shot, paint
+from zeroset.view.spans import nice_step
 from zeroset.view.state import State, opened
 
 SIZE = (200.0, 150.0)
@@ -19,7 +20,7 @@ SIZE = (200.0, 150.0)
 
 def shown(surface: zs.Surface, **changes: bool) -> tuple[State, Picture]:
     scene = Scene(surface, zs.Camera(eye=(0.0, -6.0, 0.0), fov=40.0))
-    state = replace(opened(scene, "", resolve_method("auto"), "auto", None), **changes)
+    state = replace(opened(scene, ("",), resolve_method("auto"), "auto", None), **changes)
     return state, paint(Shot(state.scene, (200, 150), state.method, "auto", None, "none", False), lambda: False)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import zeroset as zs
-from zeroset.errors import OutputError, ParameterError, ViewError
+from zeroset.errors import MethodError, OutputError, ParameterError, ViewError
 from zeroset.view import canvas, errands, notebook
 from zeroset.view.log import Log
 from zeroset.view.panels import bounds as bounds_panel
@@ -24,26 +24,39 @@ LINUX = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhe
 
 
 def test_text_surface_or_scene() -> None:
-    scene, text = scene_of("x^2 + b*y = 1")
-    assert (scene.background, text, dict(scene.surface.params)) == (BACKGROUND, "x^2 + b*y = 1", {"b": 1.0})
-    assert scene_of(zs.gallery["ding-dong"])[1] == "x^2 + y^2 = (1 - z) z^2"
+    scene, texts = scene_of("x^2 + b*y = 1")
+    assert (scene.background, texts) == (BACKGROUND, ("x^2 + b*y = 1",))
+    assert [dict(surface.params) for surface in scene.surface.surfaces] == [{"b": 1.0}]
+    assert scene_of(zs.gallery["ding-dong"])[1] == ("x^2 + y^2 = (1 - z) z^2",)
     own = zs.Scene(zs.surface("x = y"), background=(1.0, 0.0, 0.0))
-    assert scene_of(own)[0] is own
+    assert scene_of(own) == (own, ("x - y",))
 
 
 def test_a_solid_is_shown_as_one_formula() -> None:
     ball, rod = zs.surface("x^2 + y^2 + z^2 = r^2", {"r": 1.0}), zs.surface("x^2 + y^2 = 0.1")
     for source in (ball - rod, zs.Scene(ball - rod)):
-        scene, text = scene_of(source)
+        scene, texts = scene_of(source)
         assert isinstance(scene.surface, zs.Surface)
-        assert text == scene.surface.formula == "max(x^2 + y^2 + z^2 - r^2, 0.1 - (x^2 + y^2))"
-    with pytest.raises(ParameterError, match="the window takes one surface f = 0, not several surfaces"):
-        scene_of([ball, rod])
+        assert texts == (scene.surface.formula,) == ("max(x^2 + y^2 + z^2 - r^2, 0.1 - (x^2 + y^2))",)
+
+
+def test_several_things_have_a_box_each() -> None:
+    ball, rod, ground = zs.surface("x^2 + y^2 + z^2 = 1"), zs.surface("x^2 + y^2 = 0.1"), zs.gallery["ding-dong"]
+    scene, texts = scene_of([ball - rod, ground])
+    assert texts == ("max(x^2 + y^2 + z^2 - 1, 0.1 - (x^2 + y^2))", "x^2 + y^2 = (1 - z) z^2")
+    assert scene.surface.surfaces[1] == ground
+    assert scene.background == BACKGROUND
+
+
+def test_a_method_that_cannot_is_refused_before_there_is_a_window() -> None:
+    shells = zs.surface("x^2 + y^2 + z^2").with_isovalues((1.0, 2.0))
+    with pytest.raises(MethodError, match="marching-points cannot treat several isovalues"):
+        start(*scene_of(shells), zs.methods.MarchingPoints(), "cpu", None)
 
 
 def test_a_changed_gallery_surface_shows_its_own_formula() -> None:
     changed = zs.surface("x = y", name="ding-dong")
-    assert scene_of(changed)[1] == changed.formula
+    assert scene_of(changed)[1] == (changed.formula,)
 
 
 @LINUX
@@ -93,6 +106,8 @@ def test_the_command_line_says_it_in_one_message(zeroset_command: Callable[..., 
         ["x=y", "-m", "nonesuch"],
         ["x=y", "-d", "toaster"],
         ["x=y", "--log", "."],
+        ["x=y", "--isovalues", "1,?"],
+        ["x=y", "--isovalues", "0,1", "-m", "marching-points"],
     ):
         status, text = zeroset_command("view", *args)
         assert status == 2

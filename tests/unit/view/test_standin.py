@@ -74,6 +74,18 @@ def test_other_light_is_other_kernels(changes: dict[str, Any]) -> None:
     assert structure(other) == structure(shot)
 
 
+def test_other_surfaces_are_other_kernels_and_other_isovalues_are_not() -> None:
+    def of(*surfaces: zs.Surface) -> standin.Structure:
+        return structure(replace(SHOT, scene=Scene(surfaces)))
+
+    assert of(SURFACE, SURFACE) != of(SURFACE)
+    assert of(SURFACE, SURFACE.with_params(a=2.0)) == of(SURFACE, SURFACE)
+    assert of(SURFACE, SURFACE.with_bounds(zs.Box((-1, -1, -1), (1, 1, 1)))) != of(SURFACE, SURFACE)
+    assert of(SURFACE.with_isovalues((0, 1))) != of(SURFACE)
+    assert of(SURFACE.with_isovalues((0, 1))) == of(SURFACE.with_isovalues((2, 3)))
+    assert of(SURFACE.with_isovalues((0, 1))) != of(SURFACE.with_isovalues((0, 1, 2)))
+
+
 def test_a_gpu_is_made_ready_for_pictures_that_move_and_that_rest(monkeypatch: pytest.MonkeyPatch) -> None:
     painted = []
     monkeypatch.setattr(standin, "paint", lambda shot, superseded: painted.append(shot))

@@ -28,6 +28,28 @@ def test_what_was_asked_in_between_is_forgotten() -> None:
     assert worker.close()
 
 
+def test_jobs_about_different_things_wait_for_each_other() -> None:
+    gate, begun = threading.Event(), threading.Event()
+    seen: list[bool] = []
+
+    def work(job: tuple[str, int], superseded: Superseded) -> tuple[str, int]:
+        begun.set()
+        assert gate.wait(10)
+        seen.append(superseded())
+        return job
+
+    worker = Newest("test", work, about=lambda job: job[0])
+    worker.ask(("a", 1))
+    assert begun.wait(10)
+    for job in (("b", 1), ("b", 2), ("c", 1), ("b", 3)):
+        worker.ask(job)
+    gate.set()
+    assert worker.wait(10)
+    assert worker.answers() == [("a", 1), ("c", 1), ("b", 3)]
+    assert not any(seen)
+    assert worker.close()
+
+
 def test_a_job_may_give_up_when_a_newer_one_waits() -> None:
     begun = threading.Event()
 

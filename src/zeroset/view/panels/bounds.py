@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from zeroset.scene.bounds import Ball, Bounds, Box
 from zeroset.view.panels.context import Context
@@ -13,13 +12,13 @@ from zeroset.view.widgets import choice, label, slider
 
 def draw(state: State, context: Context) -> State:
     """Kind, size, centre."""
-    imgui, bounds = context.imgui, state.bounds
+    imgui, bounds = context.imgui, state.item.surface.fitted
     kind = "ball" if isinstance(bounds, Ball) else "box"
     wanted = choice(imgui, "shape", kind, ("ball", "box"))
     changed: Bounds = bounds if wanted == kind else other(bounds)
     changed = _ball(changed, context) if isinstance(changed, Ball) else _box(changed, context)
     if changed != bounds:
-        state = replace(state, surface=state.surface.with_bounds(changed), refit=False)
+        state = state.edited(surface=state.item.surface.with_bounds(changed), refit=False)
     if imgui.button("fit to the formula", (-1.0, 0.0)):
         state = state.ask("fit-bounds")
     imgui.set_item_tooltip("finds where f can be zero, by interval arithmetic")

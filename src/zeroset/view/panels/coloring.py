@@ -14,15 +14,17 @@ from zeroset.view.state import State
 from zeroset.view.widgets import checkbox, choice, label, said
 
 OWN, FORMULA, USUAL = "front and back", "a formula", "the usual"
-OFFERED = tuple(name for name in QUANTITIES if name != "isovalue")
-"""A window shows one surface f = 0."""
 
 
 def draw(state: State, context: Context) -> State:
     """A list to choose from, and what goes with the choice."""
-    imgui, before = context.imgui, state.material.coloring
+    if state.several:
+        context.imgui.text_disabled("a surface alone can be coloured by a quantity")
+        return state
+    imgui, before = context.imgui, state.item.material.coloring
     shown = OWN if before is None else before.by if before.by in QUANTITIES else FORMULA
-    wanted = choice(imgui, "colour by", shown, (OWN, *OFFERED, FORMULA))
+    offered = [name for name in QUANTITIES if name != "isovalue" or state.item.levels]
+    wanted = choice(imgui, "colour by", shown, (OWN, *offered, FORMULA))
     after = before
     if wanted != shown:
         after = None if wanted == OWN else Coloring("z" if wanted == FORMULA else wanted)
@@ -32,7 +34,7 @@ def draw(state: State, context: Context) -> State:
         name = choice(imgui, "map", after.map or USUAL, (USUAL, *MAPS))
         after = replace(after, map=None if name == USUAL else name)
         after = _range(imgui, context, after)
-    return state if after == before else replace(state, material=replace(state.material, coloring=after))
+    return state if after == before else state.edited(material=replace(state.item.material, coloring=after))
 
 
 def _formula(state: State, context: Context, coloring: Coloring) -> Coloring:
@@ -42,7 +44,7 @@ def _formula(state: State, context: Context, coloring: Coloring) -> Coloring:
     changed, text = imgui.input_text("##coloring", fields.get("coloring", coloring.by))
     try:
         made = replace(coloring, by=text)
-        formula_of(made, state.surface)
+        formula_of(made, state.item.drawn)
     except ZerosetError as error:
         said(imgui, error.message, theme.ERROR)
         if changed:

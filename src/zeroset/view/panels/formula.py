@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from zeroset.view import theme
 from zeroset.view.formula import Complaint
+from zeroset.view.panels import surfaces
 from zeroset.view.panels.context import Context
 from zeroset.view.state import State
 from zeroset.view.widgets import said
@@ -22,17 +21,16 @@ def draw(state: State, context: Context) -> State:
     imgui.push_font(context.fonts.code, theme.SIZE + 1)
     height = LINES * imgui.get_text_line_height() + 2 * imgui.get_style().frame_padding.y
     flags = imgui.InputTextFlags_.word_wrap
-    changed, text = imgui.input_text_multiline("##formula", state.text, (-1.0, height), flags)
+    # A box of its own for every surface: what is being typed stays where it was begun.
+    changed, text = imgui.input_text_multiline(f"##formula{state.item.key}", state.item.text, (-1.0, height), flags)
     imgui.pop_font()
     if changed:
-        state = replace(state, text=text[:LONGEST])
-    if session.complaint is not None:
-        return _complain(state, context, session.complaint)
-    if session.compiling:
-        imgui.text_disabled("compiling ...")
-    else:
-        imgui.text_disabled(_what(state))
-    return state
+        state = state.edited(text=text[:LONGEST])
+    wrong = session.complaint(state.item)
+    if wrong is not None:
+        return _complain(state, context, wrong)
+    imgui.text_disabled("compiling ..." if session.compiling else _what(state))
+    return surfaces.add(state, imgui)
 
 
 def _complain(state: State, context: Context, complaint: Complaint) -> State:
@@ -56,6 +54,7 @@ def _complain(state: State, context: Context, complaint: Complaint) -> State:
 
 def _what(state: State) -> str:
     """The surface in a few words."""
-    degree = state.surface.field.degree
+    surface = state.item.surface
+    degree = surface.field.degree
     kind = f"algebraic, degree {degree}" if degree is not None else "not algebraic"
-    return f"{state.surface.name}: {kind}" if state.surface.name else kind
+    return f"{surface.name}: {kind}" if surface.name else kind

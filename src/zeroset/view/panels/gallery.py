@@ -36,7 +36,7 @@ def draw(state: State, context: Context) -> State:
     for i, name in enumerate(found):
         if i % COLUMNS:
             imgui.same_line()
-        if _cell(imgui, context, name, side, name == state.surface.name):
+        if _cell(imgui, context, name, side, name == state.item.surface.name):
             state = state.ask("gallery", name)
     imgui.end_child()
     imgui.pop_style_var()

@@ -19,9 +19,11 @@ NOTHING = "none"
 def draw(state: State, context: Context) -> State:
     """What the surface is coloured by, three colours, the surroundings, and seven numbers."""
     state = coloring.draw(state, context)
-    imgui, material = context.imgui, state.material
+    imgui, material = context.imgui, state.item.material
     changes: dict[str, Any] = {}
-    for side in ("front", "back"):
+    if state.item.levels:
+        imgui.text_disabled("front and back: those of the isovalues")
+    for side in ("front", "back") if not state.item.levels else ():
         changed, tint = color(imgui, side, getattr(material, side))
         if changed:
             changes[side] = tint
@@ -37,7 +39,7 @@ def draw(state: State, context: Context) -> State:
     if changed:
         changes["shininess"] = min(max(value, 1e-3), 10000.0)
     changes |= _optics(imgui, material)
-    return replace(state, material=replace(material, **changes)) if changes else state
+    return state.edited(material=replace(material, **changes)) if changes else state
 
 
 def _optics(imgui: Any, material: Material) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from zeroset.errors import MethodError
+from zeroset.rendering.drawn import as_drawn
 from zeroset.rendering.render import default_tolerance
 from zeroset.solve.method import METHODS, Method
 from zeroset.view import theme
@@ -62,7 +63,7 @@ def changed_method(method: Method, name: str, value: Any, fields: dict[str, str]
 
 def _tolerance(state: State, context: Context) -> State:
     imgui = context.imgui
-    usual = default_tolerance(state.bounds)
+    usual = default_tolerance(as_drawn(state.drawn).smallest)
     value = state.tolerance or usual
     span, hint = (-6.0, 8.0), "world length of a root's interval"
     changed, power = slider(imgui, "tolerance", math.log2(value / usual), span, f"{value:.2e}", hint=hint)

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from zeroset.view.item import Item, span_of, with_motion, with_param, with_span
+from zeroset.view.motion import Motion
 from zeroset.view.panels.context import Context
-from zeroset.view.state import Motion, State, span_of, with_motion, with_param, with_span
+from zeroset.view.state import State
 
 PLAY, PAUSE, MORE = "\uf04b", "\uf04c", "\uf1de"
 """Icons of Font Awesome: play, pause, sliders."""
@@ -14,62 +16,62 @@ PLAY, PAUSE, MORE = "\uf04b", "\uf04c", "\uf1de"
 
 def draw(state: State, context: Context) -> State:
     """One row a parameter."""
-    imgui = context.imgui
-    names = list(state.surface.params)
+    imgui, item = context.imgui, state.item
+    names = list(item.surface.params)
     if not names:
         imgui.text_disabled("none: write a letter such as a into the formula")
     for name in names:
-        imgui.push_id(name)
-        state = _row(state, imgui, name)
+        imgui.push_id(f"{item.key} {name}")
+        item = _row(item, imgui, name)
         imgui.pop_id()
-    arrays = ", ".join(f"{name} ({len(values)})" for name, values in state.surface.arrays.items())
+    arrays = ", ".join(f"{name} ({len(values)})" for name, values in item.surface.arrays.items())
     if arrays:
         imgui.text_disabled(f"arrays: {arrays}")
-    return state
+    return state if item is state.item else state.with_item(item)
 
 
-def _row(state: State, imgui: Any, name: str) -> State:
-    motion = state.motions.get(name, Motion())
+def _row(item: Item, imgui: Any, name: str) -> Item:
+    motion = item.motions.get(name, Motion())
     if imgui.button(PAUSE if motion.playing else PLAY, (28.0, 0.0)):
-        state = with_motion(state, name, replace(motion, playing=not motion.playing))
+        item = with_motion(item, name, replace(motion, playing=not motion.playing))
     imgui.set_item_tooltip("pause" if motion.playing else "play")
     imgui.same_line()
     imgui.align_text_to_frame_padding()
     imgui.text(name)
     imgui.same_line(76.0)
     imgui.set_next_item_width(-36.0)
-    span, value = span_of(state, name), state.surface.params[name]
+    span, value = span_of(item, name), item.surface.params[name]
     flags = imgui.SliderFlags_.no_round_to_format
     changed, value = imgui.slider_float("##value", value, span.low, span.high, "%.4g", flags)
     if changed:
-        state = with_param(state, name, float(value))
+        item = with_param(item, name, float(value))
     imgui.same_line()
     if imgui.button(MORE, (28.0, 0.0)):
         imgui.open_popup("range")
     imgui.set_item_tooltip("range and speed")
     if imgui.begin_popup("range"):
-        state = _popup(state, imgui, name)
+        item = _popup(item, imgui, name)
         imgui.end_popup()
-    return state
+    return item
 
 
-def _popup(state: State, imgui: Any, name: str) -> State:
+def _popup(item: Item, imgui: Any, name: str) -> Item:
     """The range, and how it plays."""
-    span, motion = span_of(state, name), state.motions.get(name, Motion())
+    span, motion = span_of(item, name), item.motions.get(name, Motion())
     imgui.set_next_item_width(120.0)
     low_changed, low = imgui.input_float("lowest", span.low, 0.0, 0.0, "%.6g")
     imgui.set_next_item_width(120.0)
     high_changed, high = imgui.input_float("highest", span.high, 0.0, 0.0, "%.6g")
     if low_changed or high_changed:
-        state = with_span(state, name, float(low), float(high))
+        item = with_span(item, name, float(low), float(high))
     imgui.set_next_item_width(120.0)
     changed, seconds = imgui.slider_float(
         "seconds one way", motion.seconds, 0.5, 60.0, "%.1f", imgui.SliderFlags_.logarithmic
     )
     if changed:
         motion = replace(motion, seconds=max(0.05, float(seconds)))
-        state = with_motion(state, name, motion)
+        item = with_motion(item, name, motion)
     for text, loop in (("to and fro", False), ("from the start again", True)):
         if imgui.radio_button(text, motion.loop == loop):
-            state = with_motion(state, name, replace(motion, loop=loop))
-    return state
+            item = with_motion(item, name, replace(motion, loop=loop))
+    return item
