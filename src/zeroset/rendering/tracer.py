@@ -43,7 +43,9 @@ ORDER = (*DRAFT, "thin", "second")
 """Passes in the order in which their programs are made."""
 RARE = "parts"
 """The pass that many pictures need nothing of: its program is made when a pixel asks, or after the first picture."""
-SHORT = ("thin", "second", RARE)
+LATE = ("thin", "second", RARE)
+"""Passes that a picture needs last: where there is another process, it makes their programs."""
+QUICK = ("beams", *LATE)
 """Passes that take little of a small picture's time; their programs are made in a hurry for the first one."""
 AT_ONCE = 5
 """Programs that are made side by side: compilers are to be kept at work while other kernels are being traced."""
@@ -183,7 +185,7 @@ class Tracer:
             self._making.begin([*wanted, *more], AT_ONCE)
             self._making.improve()
         else:
-            self._making.begin(wanted, AT_ONCE, (*SHORT, *self._shared) if hurry else (), SHORT)
+            self._making.begin(wanted, AT_ONCE, (*QUICK, *self._shared) if hurry else (), LATE)
 
     def settle(self) -> None:
         """Wait until everything is there that was begun or that another picture may ask for, and as good as it gets."""
