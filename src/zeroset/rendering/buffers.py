@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from zeroset.kernel.types import F32, U32, Type
 
 NORMAL = ("nx", "ny", "nz")
@@ -15,16 +17,33 @@ FROM, ONWARD = "from", "onward"
 """Where the search for a ray's next layer starts, and where the one after it will."""
 NOTHING = -1e30
 """Where it starts along a ray on which nothing was found yet: before every bounds."""
-THIN = {"block_missed": U32, "block_reach": F32, "thin_block": U32}
-"""For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not, and where the first thing
-is that may be thinner than a pixel. Then the list of blocks that may hold such a thing."""
+MISSED = "block_missed"
+"""For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not."""
+
+
+class CellList(NamedTuple):
+    """A list of cells that may hold something thinner than a pixel.
+
+    Attributes:
+        counter: where its length is counted.
+        lanes: the buffer of their first pixels.
+        reach: the buffer of where the first such thing may be.
+    """
+
+    counter: int
+    lanes: str
+    reach: str
+
+
+THIN = {"block": CellList(1, "thin_block", "block_reach"), "quarter": CellList(2, "thin_quarter", "quarter_reach")}
+"""The lists of blocks, and of quarters of blocks."""
 THIN_PIXEL = "thin_pixel"
 """The list of pixels that may hold such a thing."""
 PARTS = {"thin_left": U32, "thin_parts": U32}
 """Places on that list: of pixels that f32 has left parts of; and for each place which parts of its pixel, as bits."""
 COUNTERS = "counters"
-"""How long the lists are: the second look's, the blocks' and the pixels' with thin parts, and that with parts left."""
-LISTS = 4
+"""How long the lists are: the second look's; of blocks, quarters and pixels with thin parts; and with parts left."""
+LISTS = 5
 """How many lists are counted."""
 CLEAR, END = "clear", "end"
 """Up to where a ray met nothing, and where what it met is behind it; for frames whose rays go on."""
@@ -39,7 +58,7 @@ EDGES = "edges"
 LIGHTS = "light_data"
 """The lights' places and colours."""
 LIGHT_WORDS = 8
-"""Numbers of a light: place, whether it is near, colour, and one that is not used."""
+"""Numbers of a light: its place, or a vector towards it; which of the two; colour; one over the vector's length."""
 TEXELS = "texels"
 """The environment's cube map."""
 LIT = "lit"

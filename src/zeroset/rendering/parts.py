@@ -11,20 +11,11 @@ from typing import NamedTuple
 
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, if_, load, while_
 from zeroset.rendering.buffers import THIN_PIXEL, Ends
+from zeroset.rendering.cells import FINENESS, HALF, IN_PARTS, WIDTHS, part_offset, place_of, reached, shortest
 from zeroset.rendering.gbuffer import write
 from zeroset.rendering.layout import pixel_place, tile_of
 from zeroset.rendering.primary import camera_ray, exact_ray, t_range
-from zeroset.rendering.thin import (
-    FINENESS,
-    HALF,
-    IN_PARTS,
-    WIDTHS,
-    part_offset,
-    place_of,
-    reached,
-    shortest,
-    thin_answer,
-)
+from zeroset.rendering.thin import thin_answer
 from zeroset.rendering.view import frame_patch
 from zeroset.solve.beam import Thin, find_anything
 from zeroset.solve.shape import Shape

@@ -18,6 +18,7 @@ from zeroset.rendering.buffers import (
     FROM,
     LISTS,
     LIT,
+    MISSED,
     NOTHING,
     ONWARD,
     PARTS,
@@ -207,7 +208,10 @@ class Tracer:
             made[LIT] = self._device.allocate(U32, rays)
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
-            made |= {name: self._device.allocate(type_, rays // BLOCK) for name, type_ in THIN.items()}
+            made[MISSED] = self._device.allocate(U32, rays // BLOCK)
+            for cells, pixels in ((THIN["block"], BLOCK), (THIN["quarter"], BLOCK // 4)):
+                made[cells.lanes] = self._device.allocate(U32, rays // pixels)
+                made[cells.reach] = self._device.allocate(F32, rays // pixels)
             listed = {THIN_PIXEL: U32} | (PARTS if self._again else {})
             made |= {name: self._device.allocate(type_, rays) for name, type_ in listed.items()}
         return made
@@ -218,7 +222,7 @@ class Tracer:
         bound = {**buffers, **drawn.bind(self._arrays)} if drawn.arrays else buffers
         self._device.clear(buffers[COUNTERS])
         if self.beams:
-            self._device.clear(buffers["block_missed"])
+            self._device.clear(buffers[MISSED])
             self.program("beams").run(tiles, uniforms, bound)
             if self._making.pending("first"):
                 # A driver that compiles when a shader first runs may do so while the next one is being written.
@@ -267,15 +271,15 @@ class Tracer:
             self.program("shadow").run(rays, {**uniforms, **light}, bound)
 
     def thin_parts(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
-        """Draw what lies between the rays: by blocks, by the pixels of those, by the parts of those, last in f64."""
+        """Draw what lies between the rays: by blocks, quarters of those, pixels, and parts of those, last in f64."""
         if not self.beams:
             return
         program = self.program("thin")
         program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "level": 0}, bound)
-        # What one run puts on a list, the next looks at in sixteen pieces each.
-        for level in (1, 2):
-            program.run(Counted(bound[COUNTERS], level, BLOCK), {**uniforms, "level": level}, bound)
-        left = Counted(bound[COUNTERS], 3)
+        # What one run puts on a list, the next looks at in pieces.
+        for level, each in ((1, 4), (2, 4), (3, BLOCK)):
+            program.run(Counted(bound[COUNTERS], level, each), {**uniforms, "level": level}, bound)
+        left = Counted(bound[COUNTERS], 4)
         if self._again and self._device.lanes(left) != 0:
             self._making.begin((RARE,), 1, (RARE,) if self._hurry else ())
             self._in_doubles(RARE, left, drawn, uniforms, bound)

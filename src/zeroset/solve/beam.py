@@ -128,12 +128,20 @@ class Thin(NamedTuple):
     steps: Value
 
 
-def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:
+def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value, unsure: Value) -> Thin:
     """Look along a pixel's beam for a part of the surface that is thinner than the pixel.
 
     Where a step cannot be excluded, the derivatives of f across the pixel decide: near an ordinary silhouette one of
     them keeps its sign, mostly over a long stretch, and the pixel is left to its ray there; where both may vanish, down
     to a step of ``finest``, f has an extremum near zero inside the pixel, which is what a thin part is.
+
+    Args:
+        patch: the beam's rays.
+        near: start of the search.
+        far: its end.
+        step: its first step.
+        finest: the shortest step worth trying.
+        unsure: lanes that have found something when their patience ends, wherever they are.
     """
 
     def running(a: Value, h: Value, found: Value, count: Value) -> Value:
@@ -150,7 +158,8 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value)
         return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), thin, count + 1
 
     a, h, found, count = while_(running, turn, near, step.maximum(finest), constant(False, BOOL), constant(0, U32))
-    return Thin(found, a + h * 0.5, count)
+    ended = unsure & (a < far) & (count >= PATIENCE)
+    return Thin(found | ended, ended.select(a, a + h * 0.5), count)
 
 
 def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:

@@ -43,7 +43,10 @@ def test_a_picture_in_bands_is_the_picture(cramped: Cramped, size: tuple[int, in
     assert np.asarray(parts).shape == np.asarray(whole).shape
     # The rays of a band are rounded elsewhere: a pixel on the edge may fall to the other side.
     assert np.count_nonzero(whole.aov("status") != parts.aov("status")) <= 4
-    assert np.nanmax(np.abs(whole.aov("t") - parts.aov("t"))) < 1e-3
+    off = np.abs(whole.aov("t") - parts.aov("t"))
+    assert np.nanmax(off[whole.aov("status") == zs.HIT]) < 1e-3
+    # Where something thinner than a pixel lies along a pixel's beam is told within its width.
+    assert np.nanmax(off) < surface.fitted.extent / max(size)
     apart = np.abs(np.asarray(whole).astype(int) - np.asarray(parts)).max(axis=-1)
     assert np.count_nonzero(apart > 8) <= 8
 

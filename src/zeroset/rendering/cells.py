@@ -1,0 +1,120 @@
+"""What a lane of the search for thin parts looks at: a block of 4x4 pixels, a quarter of it, a pixel, or a part.
+
+A run at one level puts what it cannot rule out on a list, and the next one has four lanes for each entry, sixteen for
+a pixel. An enclosure's error shrinks with the square of its width, so that each level is sharper than the one before,
+and a list's entry says up to where it was clear, so that none looks twice at what lies before.
+"""
+
+from __future__ import annotations
+
+from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Type, Value, constant, load
+from zeroset.rendering.buffers import BLOCK, FIELDS, MISSED, THIN, THIN_PIXEL
+from zeroset.rendering.layout import TILE, tile_of
+from zeroset.solve.status import MISS
+
+IN_BLOCKS, IN_QUARTERS, IN_PIXELS, IN_PARTS = 0, 1, 2, 3
+"""Values of the uniform ``level``."""
+WIDTHS = 4.0, 2.0, 1.0, 0.25
+"""Side of what a lane looks at, in pixels."""
+FINENESS = 1.0, 0.5, 0.125, 0.125
+"""The shortest step along a beam as a part of its width."""
+HALF = 0.505
+"""Half a side, and a hundredth for how coordinates are rounded: between two neighbours nothing gets lost."""
+
+
+def part_offset(part: Value) -> tuple[Value, Value]:
+    """How far, in pixels, the middle of a part is from its pixel's, to the right and down."""
+    return (part & 3).convert(F32).fma(0.25, -0.375), (part >> 2).convert(F32).fma(0.25, -0.375)
+
+
+def place_of(builder: KernelBuilder, lane: Value) -> Value:
+    """The t of a pixel that is on the list: where it was found to hold something, seen as a whole.
+
+    From there it is lit, too: a little in front of what is thin its normals are smooth.
+    """
+    return load(builder.buffer("t", FIELDS["t"], writable=True), lane)
+
+
+def reached(builder: KernelBuilder, lane: Value) -> Value:
+    """Up to where a pixel that is on the list was clear."""
+    return place_of(builder, lane) - builder.uniform("finest", F32) * (2.0 / TILE)
+
+
+def shortest(builder: KernelBuilder, width: Value | float) -> Value:
+    """The beams' finest step for a patch of this width, in pixels."""
+    return builder.uniform("finest", F32) * width * (1.0 / TILE)
+
+
+class Cells:
+    """One run's lanes.
+
+    Args:
+        builder: of the kernel.
+
+    Attributes:
+        level: which run it is.
+        place: the lane's entry on the list of the run before.
+        part: which of sixteen parts of a pixel it is.
+        lane: its pixel, or the first of its pixels.
+        width: side of what it looks at, in pixels.
+    """
+
+    def __init__(self, builder: KernelBuilder) -> None:
+        self._builder = builder
+        self.level = builder.uniform("level", U32)
+        index = builder.index()
+        self.place = self.level.eq(IN_PARTS).select(index >> 4, index >> 2)
+        self.part = index & (BLOCK - 1)
+        block, quarter = (self._listed(THIN[kind].lanes, level) for kind, level in _PARENTS)
+        right, below = index & 1, (index >> 1) & 1
+        # A block's lanes are its rows, one after the other.
+        self.lane = self._pick(
+            index << 4,
+            block + (below << 3) + (right << 1),
+            quarter + (below << 2) + right,
+            self._listed(THIN_PIXEL, IN_PARTS),
+        )
+        self.width = self._number(WIDTHS)
+
+    def middle(self) -> tuple[Value, Value]:
+        """How far, in pixels, the middle of what a lane looks at is from its pixel's, to the right and down."""
+        right, below = part_offset(self.part)
+        block, quarter, pixel = (constant(0.5 * width - 0.5, F32) for width in WIDTHS[:IN_PARTS])
+        return self._pick(block, quarter, pixel, right), self._pick(block, quarter, pixel, below)
+
+    def start(self) -> tuple[Value, Value]:
+        """Where on its beam a lane starts, and with what step: as its tile's beam has left it, or the level before."""
+        tile = tile_of(self.lane)
+        start, step = (load(self._builder.buffer(name, F32), tile) for name in ("tile_start", "tile_step"))
+        block, quarter = (
+            self._listed(THIN[kind].reach, level, F32) - shortest(self._builder, WIDTHS[level - 1])
+            for kind, level in _PARENTS
+        )
+        reach = self._pick(start, block, quarter, reached(self._builder, self.lane))
+        return start.maximum(reach), step
+
+    def finest(self) -> Value:
+        """The shortest step along a lane's beam."""
+        return shortest(self._builder, self.width * self._number(FINENESS))
+
+    def wanted(self) -> Value:
+        """Whether there may be something to find: where all rays have met something, nothing lies between them."""
+        status = self._builder.buffer("status", U32, writable=True)
+        missed, *others = (load(status, self.lane + i).eq(MISS) for i in (0, 1, 4, 5))
+        marked = load(self._builder.buffer(MISSED, U32, writable=True), self.lane >> 4).ne(0)
+        return self._pick(marked, missed | others[0] | others[1] | others[2], missed, constant(True, BOOL))
+
+    def _listed(self, name: str, level: int, type_: Type = U32) -> Value:
+        """An entry of a list that a level reads; the first one at all others."""
+        return load(self._builder.buffer(name, type_, writable=True), self.level.eq(level).select(self.place, 0))
+
+    def _pick(self, blocks: Value, quarters: Value, pixels: Value, parts: Value) -> Value:
+        fine = self.level.eq(IN_PIXELS).select(pixels, parts)
+        return self.level.eq(IN_BLOCKS).select(blocks, self.level.eq(IN_QUARTERS).select(quarters, fine))
+
+    def _number(self, values: tuple[float, float, float, float]) -> Value:
+        return self._pick(*(constant(v, F32) for v in values))
+
+
+_PARENTS = ("block", IN_QUARTERS), ("quarter", IN_PIXELS)
+"""What the entries are of which a level looks at the quarters."""
