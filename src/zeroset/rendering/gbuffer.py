@@ -142,17 +142,33 @@ def write(builder: KernelBuilder, subject: Subject, lane: Value, ray: Ray, answe
     store(buffers["steps"], lane, answer.steps)
 
 
-def ask_second_look(builder: KernelBuilder, lane: Value, answer: Answer, blunt: bool = False) -> None:
-    """Put an unresolved ray on the list, in no particular order; ``blunt``: and one whose hit no slope has proven."""
+def ask_second_look(
+    builder: KernelBuilder,
+    lane: Value,
+    answer: Answer,
+    blunt: bool = False,
+    since: tuple[Value, Value] | None = None,
+) -> None:
+    """Put an unresolved ray on the list, in no particular order.
+
+    Args:
+        builder: of the kernel.
+        lane: the ray's place.
+        answer: what it has met.
+        blunt: whether one whose hit no slope has proven is put there too.
+        since: which others, and from where on these are looked at again.
+    """
     lanes, clear = (builder.buffer(name, type_, writable=True) for name, type_ in SECOND.items())
     counters = builder.buffer(COUNTERS, U32, writable=True)
 
     def append() -> None:
         slot = atomic("add", counters, 0, 1)
         store(lanes, slot, lane)
-        store(clear, slot, answer.clear.convert(F32))
+        store(clear, slot, reached.convert(F32))
 
-    wanted = answer.status.eq(UNRESOLVED)
+    wanted, reached = answer.status.eq(UNRESOLVED), answer.clear
+    if since is not None:
+        wanted, reached = wanted | since[0], since[0].select(since[1], reached)
     if blunt and answer.blunt is not None:
         wanted = answer.status.ne(MISS) & (wanted | answer.blunt)
     if_(wanted, append)

@@ -45,11 +45,12 @@ def layer_kernel(shape: Shape, method: Method, pixels: bool, second: bool) -> Ke
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
         search = _Search(subject, lambda body: problem_on(body, ray, near.maximum(start), far, None), method.trace)
-        answer = beyond(search, start)
+        answer, merged, begin = beyond(search, start)
         write(builder, subject, lane, ray, answer)
         _go_on(builder, lane, answer)
         if second:
-            ask_second_look(builder, lane, answer)
+            # What f32 could not tell from the layer before may hold another: f64 looks from there.
+            ask_second_look(builder, lane, answer, since=(merged, begin))
     return builder.kernel
 
 
@@ -65,7 +66,7 @@ def second_layer_kernel(shape: Shape, offset: bool, pixels: bool) -> Kernel:
         search = _Search(
             subject, lambda body: in_doubles(problem_on(body, ray, near.maximum(start), far, None), clear), stride
         )
-        answer = beyond(search, start)
+        answer, _, _ = beyond(search, start)
         write(builder, subject, lane, exact_ray(ray), answer)
         _go_on(builder, lane, answer)
     return builder.kernel
@@ -99,8 +100,11 @@ class _Search(NamedTuple):
         return later
 
 
-def beyond(search: _Search, start: Value) -> Answer:
-    """The first find that is not still the place that the layer before left at ``start``; any, in the first layer."""
+def beyond(search: _Search, start: Value) -> tuple[Answer, Value, Value]:
+    """The first find that is not still the place that the layer before left at ``start``; any, in the first layer.
+
+    And whether anything was passed by as being still that place, and where the search began.
+    """
     problem, *others = (search.problem_of(body) for body in search.subject.bodies)
     begin = problem.t0
     for other in others:
@@ -122,7 +126,7 @@ def beyond(search: _Search, start: Value) -> Answer:
 
     found = (begin, constant(MISS, U32), none, begin, zero, begin, *([] if search.subject.shape.plain else [none]))
     state = while_(looking, look, constant(True, BOOL), none, begin, *found)
-    return Answer(*state[3:])
+    return Answer(*state[3:]), state[1] > 1, begin
 
 
 def _go_on(builder: KernelBuilder, lane: Value, answer: Answer) -> None:

@@ -76,6 +76,14 @@ def test_a_double_root_is_one_place() -> None:
     assert hits.t[0, :2] == pytest.approx([1.5, 2.5], abs=0.01)
 
 
+def test_two_roots_that_f32_cannot_tell_apart_are_two() -> None:
+    # Between them f is -0.02 at most, which is rounding in f32 there: all of it is as unresolved as a double root.
+    eye, toward = (0.0, 6.853, 4.236), np.array([0.08346312, -0.78151715, -0.6182757], np.float32)
+    hits = zs.cast(zs.gallery["barth-decic"], eye, toward, max_hits=4)
+    assert hits.status[0].tolist() == [zs.HIT, zs.HIT, zs.MISS, zs.MISS]
+    assert hits.t[0, :2] == pytest.approx([9.50214, 9.50674], abs=1e-3)
+
+
 def test_parts_outside_the_stretch_are_not_counted() -> None:
     ball = zs.surface("x^2 + y^2 + z^2 = 1", bounds=2)
     inside = zs.cast(ball, [0, 0, 5], [0, 0, -1], t_min=4.5, max_hits=2)
