@@ -49,6 +49,9 @@ class Bounces:
         layout: of the frame.
         device: where.
         tint: what the surface is coloured by; None for nothing.
+
+    Attributes:
+        exact: whether they read all numbers in f64 too.
     """
 
     def __init__(
@@ -67,19 +70,21 @@ class Bounces:
         def path() -> Kernel:
             from zeroset.rendering.paths import path_kernel
 
-            return path_kernel(shape, offset, optics, tint)
+            return path_kernel(shape, offset, optics, tint, self.exact)
 
         def sample() -> Kernel:
             from zeroset.rendering.paths import sample_kernel
 
-            return sample_kernel(shape, offset, optics, tracer.beams, tint)
+            return sample_kernel(shape, offset, optics, tracer.beams, tint, self.exact)
 
         def edges() -> Kernel:
             from zeroset.rendering.antialias import edge_kernel
 
             return edge_kernel(tracer.beams, several)
 
-        own = f"{shape.digest} {offset} {optics}{'' if tint is None else f' {tint.digest}'}"
+        # Layers are counted: what is only rounding must not be one.
+        self.exact = optics.through and tracer.exact
+        own = f"{shape.digest} {offset} {optics} {self.exact}{'' if tint is None else f' {tint.digest}'}"
         self._path, self._sample = f"path {own}", f"sample {own} {tracer.beams}"
         self._edges = f"edges {tracer.beams} {several}"
         if not optics.plain:

@@ -13,13 +13,14 @@ from typing import NamedTuple
 from zeroset.kernel import BOOL, F32, U32, Value, constant, if_, load, store, while_
 from zeroset.rendering.buffers import STACK, STACK_WORDS
 from zeroset.rendering.gbuffer import behind, meet
-from zeroset.rendering.primary import problem_on, stride
+from zeroset.rendering.primary import in_doubles, problem_on, stride
 from zeroset.rendering.quantity import Measure, Met
 from zeroset.rendering.response import BRIGHTEST, Found, Onward, Response
 from zeroset.solve.clipping import LOW, can_clip, clipped
 from zeroset.solve.field import Ray
 from zeroset.solve.problem import Answer, Problem
-from zeroset.solve.status import MISS
+from zeroset.solve.status import MISS, UNRESOLVED
+from zeroset.solve.subject import Subject
 
 FAINTEST = 1.0 / 512
 """Weight under which a ray is not followed."""
@@ -63,9 +64,18 @@ class Chain:
         measure: what surfaces are coloured by, or None.
         place: the lane's place on the stack.
         step: a first step along camera's rays, from their tile's beam.
+        exact: what rays meet, in f64, for those that f32 leaves unresolved; None where they stay so.
     """
 
-    def __init__(self, response: Response, measure: Measure | None, place: Value, step: Value | None = None) -> None:
+    def __init__(
+        self,
+        response: Response,
+        measure: Measure | None,
+        place: Value,
+        step: Value | None = None,
+        exact: Subject | None = None,
+    ) -> None:
+        self._exact = exact
         # Where no ray goes on, all are a camera's.
         self._step = step if response.optics.plain else None
         self._response = response
@@ -128,6 +138,9 @@ class Chain:
             return stride(problem if near else clipped(problem), leaving)
 
         answer = subject.nearest(lambda body: problem_on(body, now.ray, now.start, farthest, self._step), ahead)
+        end = behind(answer)
+        if self._exact is not None:
+            answer, end = self._resolved(self._exact, now, answer, end, leaving)
         hit = answer.status.ne(MISS)
         zero = constant(0.0, F32)
         nothing = (zero, zero, zero, *([constant(0, U32)] if self.parts else []))
@@ -136,7 +149,29 @@ class Chain:
         if self._measure is not None:
             measure, place = self._measure, Met(now.ray, answer.t, answer.steps)
             (value,) = if_(hit, lambda: (measure.at(place),), lambda: (zero,))
-        return Found(hit, answer.t, met[:3], answer.clear, behind(answer), met[3] if self.parts else None, value)
+        return Found(hit, answer.t, met[:3], answer.clear, end, met[3] if self.parts else None, value)
+
+    def _resolved(
+        self, exact: Subject, now: Traveller, answer: Answer, end: Value, leaving: Value
+    ) -> tuple[Answer, Value]:
+        """What f64 makes of a ray that f32 left unresolved; of layers that it is told to count, rounding is none."""
+        farthest = self._builder.uniform("farthest", F32)
+        clear = answer.clear
+
+        def flat(found: Answer, end: Value) -> Values:
+            mark = () if found.mark is None else (found.mark,)
+            numbers = (v.convert(F32) for v in (found.t, found.clear, found.side))
+            return found.status, found.steps, end, *numbers, *mark
+
+        def again() -> Values:
+            better = exact.nearest(
+                lambda body: in_doubles(problem_on(body, now.ray, now.start, farthest, None), clear),
+                lambda problem: stride(problem, leaving),
+            )
+            return flat(better, behind(better))
+
+        status, steps, end, t, clear_, side, *mark = if_(answer.status.eq(UNRESOLVED), again, lambda: flat(answer, end))
+        return Answer(t, status, steps, clear_, side, end, mark[0] if mark else None), end
 
     def _flat(self, found: Found) -> Values:
         more = [v for v in (found.part, found.value) if v is not None]

@@ -205,6 +205,9 @@ class Frame:
                 self._tracer.shadows(light.shadows, uniforms, bound)
             self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
         if self._bounces is not None and light is not None:
+            if self._bounces.exact:
+                exact, arrays = self._tracer.in_doubles(drawn)
+                uniforms, bound = {**uniforms, **exact}, {**bound, **arrays}
             self._bounces.run(uniforms, bound, self.picture, light)
         self.device.submit()
         pictured = {PICTURE: self.picture} | {name: bound[name] for name in kept}

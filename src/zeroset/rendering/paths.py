@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from zeroset.kernel import BOOL, F32, U32, Kernel, KernelBuilder, Value, constant, for_, if_, load, store
+from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, for_, if_, load, store
 from zeroset.rendering.buffers import CLEAR, EDGES, END, NORMAL, PART, PICTURE, VALUE
 from zeroset.rendering.chain import Chain, Traveller, Values
 from zeroset.rendering.layout import frame_coordinates, pixel_coordinates, pixel_place, tile_of
@@ -27,8 +27,10 @@ SPREAD = 0.7548776662466927, 0.5698402909980532
 """Steps of a sequence that covers a square evenly, however many of its points are taken (M. Roberts' R2)."""
 
 
-def path_kernel(shape: Shape, offset: bool, optics: Optics, tint: Tint | None = None) -> Kernel:
+def path_kernel(shape: Shape, offset: bool, optics: Optics, tint: Tint | None = None, exact: bool = False) -> Kernel:
     """The colour of every pixel, from what its ray has met on.
+
+    ``exact``: what f32 leaves unresolved is searched again in f64.
 
     Uniforms beside the frame's and the material's: ``first``, the first lane; ``depth``, surfaces that a ray may meet
     after its first; ``lights``, how many there are; ``shadow_tolerance``; ``plane``, the most lanes of a run.
@@ -39,7 +41,7 @@ def path_kernel(shape: Shape, offset: bool, optics: Optics, tint: Tint | None = 
         column, row = pixel_place(builder, lane)
         inside = (column < builder.uniform("width", U32)) & (row < builder.uniform("height", U32))
         hit = load(builder.buffer("status", U32), lane).ne(MISS) & inside
-        follow = partial(_followed, builder, _chain(builder, shape, offset, optics, tint, place), lane)
+        follow = partial(_followed, builder, _chain(builder, shape, offset, optics, tint, exact, place), lane)
         if optics.sky:
             # What is all around is seen by rays that meet nothing, too.
             color = follow(hit, inside)
@@ -61,7 +63,9 @@ def _followed(builder: KernelBuilder, chain: Chain, lane: Value, hit: Value, wan
     return _encoded(chain.color(first, Found(hit, t, normal, clear, end, part, value), wanted))
 
 
-def sample_kernel(shape: Shape, offset: bool, optics: Optics, beams: bool, tint: Tint | None = None) -> Kernel:
+def sample_kernel(
+    shape: Shape, offset: bool, optics: Optics, beams: bool, tint: Tint | None = None, exact: bool = False
+) -> Kernel:
     """The colour of listed pixels, from many rays each.
 
     Args:
@@ -70,6 +74,7 @@ def sample_kernel(shape: Shape, offset: bool, optics: Optics, beams: bool, tint:
         optics: what light does.
         beams: whether rays start where their tile's beam ended.
         tint: what surfaces are coloured by.
+        exact: whether what f32 leaves unresolved is searched again in f64.
 
     Uniforms beside those of ``path_kernel``: ``samples``, rays a pixel.
     """
@@ -80,7 +85,7 @@ def sample_kernel(shape: Shape, offset: bool, optics: Optics, beams: bool, tint:
         start, step = constant(0.0, F32), None
         if beams:
             start, step = (load(builder.buffer(name, F32), tile_of(lane)) for name in ("tile_start", "tile_step"))
-        chain = _chain(builder, shape, offset, optics, tint, place, step)
+        chain = _chain(builder, shape, offset, optics, tint, exact, place, step)
         samples = builder.uniform("samples", U32)
         weight, depth = 1.0 / samples.convert(F32), builder.uniform("depth", U32)
 
@@ -102,13 +107,15 @@ def _chain(
     offset: bool,
     optics: Optics,
     tint: Tint | None,
+    exact: bool,
     place: Value,
     step: Value | None = None,
 ) -> Chain:
     response = Response(Subject(shape, builder, offset=offset), optics)
     # Only a plain surface is coloured by a quantity.
     field = shape.bodies[0].leaves[0][0].field
-    return Chain(response, None if tint is None else Measure(builder, field, offset, tint), place, step)
+    measure = None if tint is None else Measure(builder, field, offset, tint)
+    return Chain(response, measure, place, step, Subject(shape, builder, F64, offset) if exact else None)
 
 
 def _encoded(color: Color) -> Values:

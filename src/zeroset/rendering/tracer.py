@@ -58,6 +58,7 @@ class Tracer:
     Attributes:
         certified: whether the method proves its answers; only then are there beams, second looks and thin parts.
         beams: whether tiles of pixels share beams.
+        exact: whether what f32 leaves unresolved is looked at again in f64.
 
     Args:
         surface: what is traced: a surface, a solid, or several.
@@ -86,7 +87,8 @@ class Tracer:
         self._device = device
         self.certified = method.certified
         self.beams = pixels and method.certified and not layered
-        self._second = method.certified and device.supports(F64)
+        self.exact = method.certified and device.supports(F64)
+        self._second = self.exact
         self._again = self._second and self.beams
         self._arrays = Arrays(device)
         shape = as_drawn(surface).shape
@@ -259,9 +261,12 @@ class Tracer:
         self, name: str, lanes: Counted, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers
     ) -> None:
         """Run a pass that reads its numbers in f64."""
-        exact = {**uniforms, **drawn.parameters(self._method, F64)}
-        arrays = drawn.bind(self._arrays, F64) if drawn.arrays else {}
-        self.program(name).run(lanes, exact, {**bound, **arrays})
+        exact, arrays = self.in_doubles(drawn)
+        self.program(name).run(lanes, {**uniforms, **exact}, {**bound, **arrays})
+
+    def in_doubles(self, drawn: Drawn) -> tuple[dict[str, float], dict[str, Any]]:
+        """The numbers that a pass in f64 reads beside a frame's, and the arrays."""
+        return drawn.parameters(self._method, F64), drawn.bind(self._arrays, F64) if drawn.arrays else {}
 
     def shadows(self, lights: Iterable[Mapping[str, float]], uniforms: Mapping[str, float], bound: Buffers) -> None:
         """See which lights reach what was found."""
