@@ -30,6 +30,7 @@ OPTIONAL = {
     "imgui-bundle": "the window's panels: likewise",
     "glfw": "the window on a desktop: pip install 'zeroset[desktop]'",
     "anywidget": "the window in a notebook: pip install 'zeroset[notebook]'",
+    "simplejpeg": "faster pictures there: likewise",
 }
 
 

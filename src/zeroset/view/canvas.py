@@ -11,15 +11,19 @@ import importlib
 import os
 import sys
 import warnings
+from collections.abc import Callable
 from importlib.util import find_spec
 from typing import Any
 
 from zeroset.errors import ViewError
+from zeroset.runtime.gpu.adapter import quiet_wayland
 
 DESKTOP = ("wgpu", "rendercanvas", "glfw", "imgui_bundle")
 NOTEBOOK = ("wgpu", "rendercanvas", "anywidget", "imgui_bundle")
 FRAMES = 90.0
 """Most pictures a second."""
+BORDER = 8
+"""Pixels beside a notebook's widget that its frame and its cell take."""
 
 
 def check_packages(names: tuple[str, ...], extra: str) -> None:
@@ -58,7 +62,8 @@ def find_adapter() -> Any:
     import wgpu
 
     try:
-        return wgpu.gpu.request_adapter_sync(power_preference="high-performance")
+        with quiet_wayland():
+            return wgpu.gpu.request_adapter_sync(power_preference="high-performance")
     except RuntimeError:
         return None
 
@@ -94,7 +99,23 @@ def _bitmap_module() -> Any:
 def notebook_canvas(size: tuple[int, int]) -> Any:
     """A widget of the notebook."""
     module: Any = importlib.import_module("rendercanvas.anywidget")
-    return module.RenderCanvas(size=size, max_fps=30.0, update_mode="ondemand")
+    canvas = module.RenderCanvas(size=size, max_fps=30.0, update_mode="ondemand")
+    # Never wider than its cell, which would have to be scrolled sideways.
+    canvas.set_css_width(f"min({size[0]}px, calc(100% - {BORDER}px))")
+    # As it closes, rendercanvas 2.7 tells itself so as the browser would, and closes, without end.
+    canvas.close = _once(canvas.close)
+    return canvas
+
+
+def _once(function: Callable[[], object]) -> Callable[[], None]:
+    """What calls a function the first time, and does nothing after that, nor while it runs."""
+    left = [function]
+
+    def call() -> None:
+        if left:
+            left.pop()()
+
+    return call
 
 
 def device_on(adapter: Any) -> Any:

@@ -42,7 +42,8 @@ def show(
 ) -> None:
     """Show surfaces in a window in which they can be turned, and their formulas changed.
 
-    In a script it returns when the window is closed. In a notebook it shows a widget and returns at once.
+    In a script it returns when the window is closed. In a notebook it shows a widget and returns at once; the widget
+    works until its cell runs again.
 
     Args:
         source: a Surface, a Solid (shown as one f), a sequence of both, a Scene, or a formula as text, in which single
@@ -65,6 +66,7 @@ def show(
     name = device if isinstance(device, str) else device.name
     state = start(*scene_of(source), resolve_method(method), name, tolerance, camera)
     if notebook.running():
+        _check_size(size or NOTEBOOK_SIZE)
         ipython: Any = importlib.import_module("IPython.display")
         ipython.display(notebook.widget(state, size or NOTEBOOK_SIZE, Log(log)))
         return

@@ -20,6 +20,7 @@ LINGER = 6
 BLINK = 4.0
 """Frames a second while text is edited, for its cursor."""
 HANDLED = ("pointer_down", "pointer_up", "pointer_move", "wheel", "double_click", "key_down", "key_up")
+POINTED = ("pointer_down", "pointer_up", "pointer_move")
 HEARD = (*HANDLED, "char", "resize", "pointer_enter", "pointer_leave")
 
 
@@ -66,13 +67,30 @@ class Window:
         """Any event: it will be seen in the next frames."""
         self._linger = LINGER
         self._canvas.request_draw()
+        if event["event_type"] in POINTED:
+            self._point(event)
         if event["event_type"] == "pointer_up":
             # Wherever the button is let go, the drag ends.
             self._session.handle(event, self._pane())
 
+    def _point(self, event: dict[str, Any]) -> None:
+        """Tell the panels where the pointer is, and what is held with it; they hear of the button itself after this.
+
+        A finger does not hover before it presses, and a browser's moves may come after the press. When frames are
+        slow, a last move and the button's release come together: only from a touch screen do the panels take them one
+        after the other, so that a slider ends where it was let go. A notebook's widget hears of no keys before it has
+        been clicked on, nor of their release when the keyboard has gone elsewhere meanwhile.
+        """
+        source, io = self._imgui.MouseSource, self._panels.backend.io
+        io.add_mouse_source_event(source.touch_screen if event["event_type"] == "pointer_up" else source.mouse)
+        io.add_mouse_pos_event(event["x"], event["y"])
+        for name, key in self._panels.KEY_MAP_MOD.items():
+            io.add_key_event(key, name in event["modifiers"])
+
     def _handle(self, event: dict[str, Any]) -> None:
         """An event that the panels have left for the picture."""
-        kind, io = event["event_type"], self._imgui.get_io()
+        # Not Dear ImGui's present context: where there are several windows, that is the one that was drawn last.
+        kind, io = event["event_type"], self._panels.backend.io
         # Panels keep most of what is theirs, but let through double clicks and keys that they have no name for.
         if io.want_capture_mouse if kind == "double_click" else kind == "key_down" and io.want_capture_keyboard:
             return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -113,6 +114,17 @@ def test_no_wgpu_is_said_clearly(monkeypatch: pytest.MonkeyPatch) -> None:
         GpuDevice()
     assert "pip install wgpu" in error.value.hint
     adapter.adapters.cache_clear()
+
+
+def test_a_session_without_a_folder_gets_one_only_while_adapters_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("XDG_RUNTIME_DIR", raising=False)
+    with adapter.quiet_wayland():
+        assert os.environ["XDG_RUNTIME_DIR"]
+    assert "XDG_RUNTIME_DIR" not in os.environ
+    monkeypatch.setenv("XDG_RUNTIME_DIR", "/own")
+    with adapter.quiet_wayland():
+        assert os.environ["XDG_RUNTIME_DIR"] == "/own"
+    assert os.environ["XDG_RUNTIME_DIR"] == "/own"
 
 
 def test_no_adapter_is_said_clearly(monkeypatch: pytest.MonkeyPatch) -> None:

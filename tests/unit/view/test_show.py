@@ -123,6 +123,8 @@ def test_a_notebook_is_told_from_a_script(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setitem(sys.modules, "IPython", type("IPython", (), {"get_ipython": staticmethod(Shell)})())
     assert notebook.running()
+    with pytest.raises(ViewError, match="a window of 10x10 is not possible"):
+        zs.show("x = y", size=(10, 10))
 
 
 def test_the_log_cannot_be_written_where_there_is_no_folder(tmp_path: Path) -> None:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -81,11 +83,29 @@ def adapters() -> tuple[Found, ...]:
     except (ImportError, OSError, RuntimeError) as error:
         raise DeviceError(f"wgpu, which speaks to GPUs, cannot be loaded: {error}", hint="pip install wgpu") from error
     try:
-        offered = wgpu.gpu.enumerate_adapters_sync()
+        with quiet_wayland():
+            offered = wgpu.gpu.enumerate_adapters_sync()
     except RuntimeError as error:
         raise DeviceError(f"the graphics drivers cannot be asked for GPUs: {error}") from error
     found = [_found(a) for a in offered if a.info["backend_type"] in _BACKENDS]
     return tuple(sorted(found, key=lambda f: _ORDER.get(f.adapter.info["adapter_type"], 2)))
+
+
+@contextmanager
+def quiet_wayland() -> Iterator[None]:
+    """Ask for adapters in here: else Wayland's library, which they ask for a display, may complain on stderr.
+
+    It does so wherever there is no session, as in a container; a notebook shows that in red. Given any folder for the
+    session's sockets, it finds none in there and is silent.
+    """
+    missing = not os.environ.get("XDG_RUNTIME_DIR")
+    if missing:
+        os.environ["XDG_RUNTIME_DIR"] = "/nonexistent"
+    try:
+        yield
+    finally:
+        if missing:
+            os.environ.pop("XDG_RUNTIME_DIR", None)
 
 
 def _found(adapter: Any) -> Found:
