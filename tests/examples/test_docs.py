@@ -54,4 +54,7 @@ def test_commands(
     if args[0] == "figure" and len(args) > 1:
         # Whole figures are dozens of pictures: their commands are the same for small ones.
         args += ["--size", "12"]
+    elif args[0] == "animate" and "--list" not in args:
+        # Whole films are hundreds of pictures: likewise.
+        args += ["--size", "64x48"]
     assert main(args) == 0, capsys.readouterr().err

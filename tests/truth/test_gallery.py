@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import cache
 
 import pytest
 from tests.gpus import needs_gpu
@@ -23,8 +23,9 @@ FALSE_ALARMS = 0.15
 """Share of a surface's rays that may be left unresolved more than four tolerances away from any root."""
 
 
-@lru_cache(maxsize=1)
+@cache
 def trial(name: str) -> Trial:
+    """A surface's rays, judged once for all methods, devices and tests."""
     return Trial(zs.gallery[name], RAYS)
 
 

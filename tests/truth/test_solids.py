@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from functools import cache
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from zeroset import Surface
 from zeroset.methods import Affine, Interval, Method
 from zeroset.scene.solid import Solid
 
-from .booleans import Skin, aimed
+from .booleans import Met, Skin, aimed
 from .held import broken_promise
 
 BALL = zs.surface("x^2 + y^2 + z^2 = 1")
@@ -50,14 +51,21 @@ METHODS: dict[str, str | Method] = {
 }
 
 
-def hold(thing: Solid | Surface, count: int, method: str | Method, device: str) -> tuple[list[str], int, int]:
-    """Broken promises, how many rays were settled, and how many of those were left unresolved."""
+@cache
+def judged(thing: Solid | Surface, count: int) -> tuple[np.ndarray, np.ndarray, list[Met | None]]:
+    """Rays and what they certainly meet first, once for all methods."""
     skin = Skin(thing)
     origins, directions = aimed(thing, count, seed=count)
+    pairs = zip(origins.tolist(), directions.tolist(), strict=True)
+    return origins, directions, [skin.first(o, d) for o, d in pairs]
+
+
+def hold(thing: Solid | Surface, count: int, method: str | Method, device: str) -> tuple[list[str], int, int]:
+    """Broken promises, how many rays were settled, and how many of those were left unresolved."""
+    origins, directions, truth = judged(thing, count)
     hits = zs.cast(thing, origins, directions, method=method, device=device)
     broken, settled, unresolved = [], 0, 0
-    for i, (o, d) in enumerate(zip(origins.tolist(), directions.tolist(), strict=True)):
-        met = skin.first(o, d)
+    for i, (o, d, met) in enumerate(zip(origins.tolist(), directions.tolist(), truth, strict=True)):
         if met is None:
             continue
         settled += 1

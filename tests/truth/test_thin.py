@@ -17,7 +17,7 @@ import pytest
 import zeroset as zs
 
 from .held import held, proving_methods
-from .judge import Judge, Kind
+from .judge import Judge, Kind, Verdict
 
 Point = tuple[float, float, float]
 
@@ -82,6 +82,15 @@ def rays_at(thin: Thin, shift: Point) -> tuple[np.ndarray, np.ndarray]:
     return origins.astype(np.float32), directions.astype(np.float32)
 
 
+@lru_cache
+def judged(thin: Thin, shift: Point) -> tuple[np.ndarray, np.ndarray, list[Verdict]]:
+    """Origins, directions and verdicts, once for all methods."""
+    origins, directions = rays_at(thin, shift)
+    judge = Judge(surface_of(thin))
+    pairs = zip(origins.tolist(), directions.tolist(), strict=True)
+    return origins, directions, [judge.first_root(o, d) for o, d in pairs]
+
+
 def cases() -> Iterator[tuple[str, str]]:
     for name, thin in THIN.items():
         for method in proving_methods(surface_of(thin)):
@@ -91,9 +100,7 @@ def cases() -> Iterator[tuple[str, str]]:
 @pytest.mark.parametrize(("name", "method"), list(cases()))
 def test_a_ray_through_a_thin_part_is_no_miss(name: str, method: str) -> None:
     surface = surface_of(THIN[name])
-    origins, directions = rays_at(THIN[name], (0.0, 0.0, 0.0))
-    judge = Judge(surface)
-    verdicts = [judge.first_root(o, d) for o, d in zip(origins.tolist(), directions.tolist(), strict=True)]
+    origins, directions, verdicts = judged(THIN[name], (0.0, 0.0, 0.0))
     found = [verdict.root.kind if verdict.root else None for verdict in verdicts]
     exact = surface.field.degree is not None
     assert not exact or Kind.CROSS not in found
@@ -107,9 +114,8 @@ def test_a_ray_through_a_thin_part_is_no_miss(name: str, method: str) -> None:
 @pytest.mark.parametrize(("name", "method"), [case for case in cases() if any(THIN[case[0]].beside)])
 def test_a_ray_beside_it_is_a_miss(name: str, method: str) -> None:
     surface = surface_of(THIN[name])
-    origins, directions = rays_at(THIN[name], THIN[name].beside)
-    judge = Judge(surface)
-    clear = [not judge.first_root(o, d).events for o, d in zip(origins.tolist(), directions.tolist(), strict=True)]
+    origins, directions, verdicts = judged(THIN[name], THIN[name].beside)
+    clear = [not verdict.events for verdict in verdicts]
     assert any(clear)
     hits = zs.cast(surface, origins[clear], directions[clear], method=proving_methods(surface)[method], device="cpu")
     assert (hits.status == zs.MISS).all()

@@ -48,7 +48,9 @@ def test_exact_derivatives(name):
 
 
 @pytest.mark.parametrize(
-    "enclosing", [IntervalSystem(F32), AffineSystem(F32), AffineSystem(F32, intersect=True)], ids=repr
+    "enclosing",
+    [IntervalSystem(F32), AffineSystem(F32), AffineSystem(F32, intersect=True)],
+    ids=["intervals", "forms", "forms-with-interval"],
 )
 @pytest.mark.parametrize("name", CASES)
 def test_ranges_of_derivatives(name, enclosing):

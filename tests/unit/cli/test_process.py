@@ -7,9 +7,12 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 COMMAND = [sys.executable, "-m", "zeroset"]
+HEARD = (signal.SIGINT, signal.SIG_DFL)
+"""Tests that run in the background are deaf to Ctrl-C, and so would be what they start."""
 
 
 def test_a_picture_from_a_fresh_process(tmp_path: Path) -> None:
@@ -61,11 +64,17 @@ def test_ctrl_c_in_the_middle_of_a_long_render(tmp_path: Path) -> None:
         "1e-7",
     ]
     command += ["-m", "marching-points:steps=50000"]
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    time.sleep(3)
-    assert process.poll() is None
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=20)
+    pipe = subprocess.PIPE
+    process = subprocess.Popen(
+        command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True, preexec_fn=partial(signal.signal, *HEARD)
+    )
+    try:
+        time.sleep(3)
+        assert process.poll() is None
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=20)
+    finally:
+        process.kill()
     assert process.returncode == 130
     assert "interrupted" in err
     assert "Traceback" not in out + err

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -130,6 +131,15 @@ def test_several_threads_may_use_one_program(device: CpuDevice) -> None:
     assert cells.tolist() == [20_000] * 4
 
 
+@pytest.fixture
+def heard() -> Iterator[None]:
+    """Ctrl-C is heard, even by tests that run in the background of a shell, which makes them deaf to it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("heard")
 @pytest.mark.parametrize("threads", [1, 3])
 def test_ctrl_c_stops_a_long_dispatch(threads: int) -> None:
     """Hours of work, ended by the signal; a signal that waits for the end would run into the time limit."""
@@ -198,6 +208,7 @@ def test_other_targets_and_sources_have_other_files(tmp_path: Path, monkeypatch:
 def test_a_warm_start_neither_traces_nor_loads_llvm(tmp_path: Path) -> None:
     program = f"""
 import sys, numpy as np
+from collections.abc import Iterator
 from pathlib import Path
 from zeroset.runtime.cache import Cache
 from zeroset.runtime.cpu import CpuDevice, host

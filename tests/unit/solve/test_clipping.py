@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -104,6 +105,14 @@ def rays(count: int, seed: int) -> tuple[Array, Array]:
     return origins.astype(np.float32), directions.astype(np.float32)
 
 
+@cache
+def rays_and_roots(name: str, seed: int) -> tuple[Array, Array, Array]:
+    """Rays and their first roots, found once for both ways to the coefficients."""
+    origins, directions = rays(300, seed)
+    roots = [first_root(FORMULAS[name], o, d) for o, d in zip(origins, directions, strict=True)]
+    return origins, directions, np.array(roots)
+
+
 @pytest.fixture(params=["quick", "careful"])
 def how(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
     """The two ways to the polynomial's coefficients."""
@@ -119,10 +128,8 @@ def how(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
 @pytest.mark.usefixtures("how")
 @pytest.mark.parametrize("name", FORMULAS)
 def test_what_is_passed_over_holds_no_root(name: str) -> None:
-    formula = FORMULAS[name]
-    origins, directions = rays(300, 5)
-    start, none = clip(formula, origins, directions)
-    roots = np.array([first_root(formula, o, d) for o, d in zip(origins, directions, strict=True)])
+    origins, directions, roots = rays_and_roots(name, 5)
+    start, none = clip(FORMULAS[name], origins, directions)
     assert not np.any(none & np.isfinite(roots))
     assert np.all(start <= roots)
     # And it is worth its while: most rays without a root are known to have none, the others come close to theirs.
@@ -134,10 +141,8 @@ def test_what_is_passed_over_holds_no_root(name: str) -> None:
 @pytest.mark.usefixtures("how")
 @pytest.mark.parametrize("name", FORMULAS)
 def test_what_is_seen_at_a_look_over_is_so(name: str) -> None:
-    formula = FORMULAS[name]
-    origins, directions = rays(300, 8)
-    none, hidden = look_over(formula, origins, directions)
-    roots = np.array([first_root(formula, o, d) for o, d in zip(origins, directions, strict=True)])
+    origins, directions, roots = rays_and_roots(name, 8)
+    none, hidden = look_over(FORMULAS[name], origins, directions)
     assert not np.any(none & np.isfinite(roots))
     assert not np.any(hidden & np.isinf(roots))
     # A double root changes no sign, and is left to the search.
