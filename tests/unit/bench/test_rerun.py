@@ -156,7 +156,7 @@ def test_what_the_gallery_has_not_keeps_its_figures() -> None:
 
 
 def test_a_dash_is_a_dash_and_a_failure_is_told() -> None:
-    five, devices = _table("sn10-5"), Devices("interp", None)
+    five, devices = _table("sn10-5"), Devices("cpu", 1)
     machine = this_machine(devices.steady)
     row, interval = _row(five, "blobby"), five.settings[0]
     table = replace(five, size=8, settings=(interval,), rows=(replace(row, figures=(0.0,)),))
