@@ -107,6 +107,9 @@ def _making(surface: Surface, method: str, devices: Devices) -> tuple[float, flo
 def frame_cost(surface: Surface, size: int, method: str, device: Device, seconds: float) -> FrameCost:
     """Measure frames of one size."""
     draw = partial(render, surface, size, method=method, device=device)
+    # What a first small picture had made in a hurry is made well in the background, on the cores that are to be timed.
+    draw()
+    settle()
     frame, limit = take_turns((draw, limit_action(surface, size, device)), seconds)
     image = draw()
     return FrameCost(size, frame, limit, float(image.aov("steps").mean()), image.hits, image.unresolved)

@@ -9,6 +9,7 @@ from typing import Any
 
 from zeroset.bench.timing import Times, take_turns
 from zeroset.errors import ZerosetError
+from zeroset.rendering.frame import settle
 from zeroset.rendering.render import render
 from zeroset.runtime import Device
 from zeroset.scene.light import Light, Material
@@ -81,10 +82,13 @@ def measure_light(surface: Surface, size: int, method: str, device: Device, seco
 
     twice = surface.with_isovalues((0.0, surface.fitted.reach))
     for feature in FEATURES:
+        both = draw, partial(draw, twice if feature.isovalues else surface, **feature.options)
         try:
-            plain, frame = take_turns(
-                (draw, partial(draw, twice if feature.isovalues else surface, **feature.options)), seconds
-            )
+            for one in both:
+                one()
+            # Nothing shall be compiled on the cores that are timed.
+            settle()
+            plain, frame = take_turns(both, seconds)
         except ZerosetError as error:
             yield LightCost(surface.name, feature.name, size, error=str(error).splitlines()[0])
         else:
