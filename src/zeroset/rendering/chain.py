@@ -170,8 +170,8 @@ class Chain:
             )
             return flat(better, behind(better))
 
-        status, steps, end, t, clear_, side, *mark = if_(answer.status.eq(UNRESOLVED), again, lambda: flat(answer, end))
-        return Answer(t, status, steps, clear_, side, end, mark[0] if mark else None), end
+        status, steps, end, t, free, side, *mark = if_(answer.status.eq(UNRESOLVED), again, lambda: flat(answer, end))
+        return Answer(t, status, steps, free, side, end, mark[0] if mark else None), end
 
     def _flat(self, found: Found) -> Values:
         more = [v for v in (found.part, found.value) if v is not None]

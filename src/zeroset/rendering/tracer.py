@@ -88,8 +88,7 @@ class Tracer:
         self.certified = method.certified
         self.beams = pixels and method.certified and not layered
         self.exact = method.certified and device.supports(F64)
-        self._second = self.exact
-        self._again = self._second and self.beams
+        self._again = self.exact and self.beams
         self._arrays = Arrays(device)
         shape = as_drawn(surface).shape
         self._parts = shape.parts
@@ -110,10 +109,10 @@ class Tracer:
             if self._layered:
                 from zeroset.rendering.layers import layer_kernel
 
-                return layer_kernel(shape, method, pixels, self._second)
+                return layer_kernel(shape, method, pixels, self.exact)
             from zeroset.rendering.primary import trace_kernel
 
-            return trace_kernel(shape, method, pixels, self.beams, self._second, ends)
+            return trace_kernel(shape, method, pixels, self.beams, self.exact, ends)
 
         def second() -> Kernel:
             if self._layered:
@@ -147,7 +146,7 @@ class Tracer:
         made: dict[str, Callable[[], Kernel]] = {"first": first}
         if self._shadows:
             made["shadow"] = shadow
-        if self._second:
+        if self.exact:
             made["second"] = second
         if self.beams:
             made |= {"beams": beams, "thin": thin}
@@ -202,7 +201,7 @@ class Tracer:
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles, those of the outputs included where there is one layer."""
-        wanted = ({} if self._layered else fields(self._parts)) | (SECOND if self._second else {})
+        wanted = ({} if self._layered else fields(self._parts)) | (SECOND if self.exact else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, LISTS)
         made |= {name: self._device.allocate(F32, rays) for name in self._ends}
@@ -253,7 +252,7 @@ class Tracer:
 
     def second_look(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers) -> None:
         """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so."""
-        if not self._second or self._device.lanes(Counted(bound[COUNTERS], 0)) == 0:
+        if not self.exact or self._device.lanes(Counted(bound[COUNTERS], 0)) == 0:
             return
         self._in_doubles("second", Counted(bound[COUNTERS], 0), drawn, uniforms, bound)
 
