@@ -15,6 +15,8 @@ SECOND = {"second_lane": U32, "second_clear": F32}
 """Rays left unresolved: which, and from where on."""
 FROM, ONWARD = "from", "onward"
 """Where the search for a ray's next layer starts, and where the one after it will."""
+FORMER = "former_status"
+"""The status of a ray's last layer."""
 NOTHING = -1e30
 """Where it starts along a ray on which nothing was found yet: before every bounds."""
 MISSED = "block_missed"

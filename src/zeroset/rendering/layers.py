@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, load, store, while_
-from zeroset.rendering.buffers import FROM, NOTHING, ONWARD, SECOND
+from zeroset.rendering.buffers import FORMER, FROM, NOTHING, ONWARD, SECOND
 from zeroset.rendering.gbuffer import ask_second_look, behind, write
 from zeroset.rendering.primary import (
     EMPTY_TILE,
@@ -45,7 +45,9 @@ def layer_kernel(shape: Shape, method: Method, pixels: bool, second: bool) -> Ke
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
         search = _Search(subject, lambda body: problem_on(body, ray, near.maximum(start), far, None), method.trace)
-        answer, merged, begin = beyond(search, start)
+        # Where f64 cannot tell whether what touches a hit is a second one, it stays unresolved.
+        former = None if second else load(builder.buffer(FORMER, U32), lane)
+        answer, merged, begin = beyond(search, start, former)
         write(builder, subject, lane, ray, answer)
         _go_on(builder, lane, answer)
         if second:
@@ -100,16 +102,21 @@ class _Search(NamedTuple):
         return later
 
 
-def beyond(search: _Search, start: Value) -> tuple[Answer, Value, Value]:
+def beyond(search: _Search, start: Value, former: Value | None = None) -> tuple[Answer, Value, Value]:
     """The first find that is not still the place that the layer before left at ``start``; any, in the first layer.
 
     And whether anything was passed by as being still that place, and where the search began.
+
+    Args:
+        search: what is searched.
+        start: where.
+        former: the status of the layer before, if only what touches an unresolved place is to be passed by.
     """
     problem, *others = (search.problem_of(body) for body in search.subject.bodies)
     begin = problem.t0
     for other in others:
         begin = begin.minimum(other.t0)
-    before = start.convert(problem.type) > NOTHING * 0.5
+    before = start.convert(problem.type) > NOTHING * 0.5 if former is None else former.eq(UNRESOLVED)
     reach = problem.tolerance * TOUCHING
     none, zero = constant(0, U32), problem.number(0.0)
 

@@ -15,6 +15,7 @@ from zeroset.kernel.types import F32, F64, U32
 from zeroset.rendering.buffers import (
     BLOCK,
     COUNTERS,
+    FORMER,
     FROM,
     LISTS,
     LIT,
@@ -92,7 +93,7 @@ class Tracer:
         self._arrays = Arrays(device)
         shape = as_drawn(surface).shape
         self._parts = shape.parts
-        self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {' '.join(ends)}"
+        self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {self.exact} {' '.join(ends)}"
         self._shared: list[str] = []
         self._making = Making(device)
         self._drawn = False
@@ -240,14 +241,16 @@ class Tracer:
         """What lies behind one another along each ray: the outputs of each layer, the first one first."""
         here, onward = (self._device.allocate(F32, rays) for _ in range(2))
         self._device.write(here, np.full(rays, NOTHING, np.float32))
-        found = []
+        former = self._device.allocate(U32, rays)
+        self._device.clear(former)
+        found: list[dict[str, Any]] = []
         for _ in range(most):
             found.append(self.outputs(rays))
             self._device.clear(bound[COUNTERS])
-            layer = {**bound, **found[-1], FROM: here, ONWARD: onward}
+            layer = {**bound, **found[-1], FROM: here, ONWARD: onward, FORMER: former}
             self.program("first").run(rays, uniforms, layer)
             self.second_look(drawn, uniforms, layer)
-            here, onward = onward, here
+            here, onward, former = onward, here, found[-1]["status"]
         return found
 
     def second_look(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers) -> None:

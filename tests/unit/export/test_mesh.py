@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.gpus import needs_gpu
+from tests.narrow import narrow
 
 import zeroset as zs
 from zeroset.errors import BoundsError, DeviceError, ParameterError, ZerosetError
@@ -285,16 +286,7 @@ def test_what_cannot_be_meshed_is_said(arguments: dict[str, Any], error: type[Ex
 
 
 def test_no_f64_is_said() -> None:
-    class Narrow:
-        def __getattr__(self, name: str) -> Any:
-            from zeroset.runtime import get_device
-
-            return getattr(get_device("cpu"), name)
-
-        def supports(self, type_: Any) -> bool:
-            return type_.name != "f64"
-
-    device: Any = Narrow()
+    device = narrow()
     with pytest.raises(DeviceError, match="does not calculate in f64"):
         zs.mesh(BALL, 8, device=device, precision="f64")
     assert zs.mesh(BALL, 8, device=device).watertight

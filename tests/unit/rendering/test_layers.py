@@ -6,6 +6,7 @@ import flint
 import numpy as np
 import pytest
 from tests.gpus import needs_gpu
+from tests.narrow import narrow
 
 import zeroset as zs
 from zeroset.errors import ParameterError
@@ -82,6 +83,16 @@ def test_two_roots_that_f32_cannot_tell_apart_are_two() -> None:
     hits = zs.cast(zs.gallery["barth-decic"], eye, toward, max_hits=4)
     assert hits.status[0].tolist() == [zs.HIT, zs.HIT, zs.MISS, zs.MISS]
     assert hits.t[0, :2] == pytest.approx([9.50214, 9.50674], abs=1e-3)
+
+
+def test_without_f64_what_touches_a_hit_stays_unresolved() -> None:
+    # f32 proves the first root, and cannot tell the second one from what is left of it.
+    eye, toward = (0.0, 6.853, 4.236), np.array([-0.002367281587794423, -0.8596280813217163, -0.5109148025512695])
+    roots = zs.cast(zs.gallery["barth-decic"], eye, toward, max_hits=5).t[0]
+    assert roots[:4] == pytest.approx([7.454326, 7.456016, 8.630331, 8.698753], abs=1e-3)
+    hits = zs.cast(zs.gallery["barth-decic"], eye, toward, max_hits=5, device=narrow())
+    assert hits.status[0].tolist() == [zs.HIT, zs.UNRESOLVED, zs.HIT, zs.HIT, zs.MISS]
+    assert hits.t[0, :4] == pytest.approx(roots[:4], abs=2e-3)
 
 
 def test_parts_outside_the_stretch_are_not_counted() -> None:
