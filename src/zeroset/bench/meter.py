@@ -80,9 +80,9 @@ class Meter:
                 if not self._active:
                     self.milliseconds += (time.perf_counter() - self._begin) * 1e3
 
-    def allocate(self, type_: Type, count: int) -> Any:
+    def allocate(self, type_: Type, count: int, constant: bool = False) -> Any:
         """A buffer of the wrapped device."""
-        return self._device.allocate(type_, count)
+        return self._device.allocate(type_, count, constant)
 
     def supports(self, type_: Type) -> bool:
         """Whether the wrapped device's kernels may calculate with a type."""

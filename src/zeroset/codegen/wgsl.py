@@ -8,7 +8,7 @@ earlier pass may have written them.
 
 from __future__ import annotations
 
-from zeroset.codegen.gpu_target import GpuTarget
+from zeroset.codegen.gpu_target import CONSTANT_BYTES, GpuTarget
 from zeroset.codegen.legalise import legalise
 from zeroset.codegen.wgsl_operations import EXPRESSIONS, literal
 from zeroset.kernel.build import Kernel
@@ -46,6 +46,7 @@ class _Shader:
         self.made = 0
         instructions = [i for block in regions_of(kernel) for i in block.instructions]
         self.atomic = {i.attributes[0] for i in instructions if i.op.startswith("atomic_")}
+        self.constant = {b.name: 16 // b.type.size for b in kernel.buffers if b.name in target.constant(kernel.buffers)}
         self.votes = target.subgroups and any(i.op == "any" for i in instructions)
         self.handlers = {
             "const": self._const,
@@ -85,6 +86,10 @@ class _Shader:
         access = "read_write" if buffer.writable else "read"
         element = f"atomic<{buffer.type}>" if buffer.name in self.atomic else str(buffer.type)
         name = _safe(buffer.name)
+        if buffer.name in self.constant:
+            # Rows of 16 bytes are how WGSL lays constants out.
+            row = f"vec{self.constant[buffer.name]}<{buffer.type}>"
+            return f"@group({GROUP}) @binding({binding}) var<uniform> {name}: array<{row}, {CONSTANT_BYTES // 16}>;"
         return f"@group({GROUP}) @binding({binding}) var<storage, {access}> {name}: array<{element}>;"
 
     # ----------------------------------------------------- names and lines
@@ -150,7 +155,11 @@ class _Shader:
         self.let(instruction.results[0], f"subgroupAny({vote})" if self.votes else vote)
 
     def _place(self, instruction: Instruction) -> str:
-        return f"{_safe(instruction.attributes[0])}[{self.name(instruction.operands[0])}]"
+        buffer, place = instruction.attributes[0], self.name(instruction.operands[0])
+        if buffer in self.constant:
+            row = self.constant[buffer]
+            return f"{_safe(buffer)}[{place} / {row}u][{place} % {row}u]"
+        return f"{_safe(buffer)}[{place}]"
 
     def _load(self, instruction: Instruction) -> None:
         place = self._place(instruction)

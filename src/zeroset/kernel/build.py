@@ -86,14 +86,14 @@ class KernelBuilder:
             self._uniforms.append(Uniform(name, type_))
         return emit("uniform", (), (name,), (type_,))[0]
 
-    def buffer(self, name: str, type_: Type, writable: bool = False) -> Buffer:
+    def buffer(self, name: str, type_: Type, writable: bool = False, constant: bool = False) -> Buffer:
         """The buffer of that name, declared on first use."""
+        made = Buffer(name, type_, writable, constant)
         for known in self._buffers:
             if known.name == name:
-                if known.type != type_ or known.writable != writable:
+                if known != made:
                     raise KernelError(f"buffer {name} is already declared otherwise")
                 return known
-        made = Buffer(name, type_, writable)
         self._buffers.append(made)
         return made
 

@@ -24,7 +24,7 @@ def digest_of(kernel: Kernel) -> str:
     for uniform in kernel.uniforms:
         parts += (uniform.name, uniform.type.name)
     for buffer in kernel.buffers:
-        parts += (buffer.name, buffer.type.name, buffer.writable)
+        parts += (buffer.name, buffer.type.name, buffer.writable, buffer.constant)
     _block(kernel.body, parts, _Numbers())
     # repr puts each text between quotes: with the counts before all that may be longer or shorter, no two kernels
     # give one text.

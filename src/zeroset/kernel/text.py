@@ -37,7 +37,10 @@ def to_text(kernel: Kernel) -> str:
     """The kernel's declaration and body, one instruction a line, values numbered in the order they appear."""
     printer = _Printer()
     uniforms = [f"uniform {u.name}: {u.type}" for u in kernel.uniforms]
-    buffers = [f"buffer {b.name}: {b.type}{' writable' if b.writable else ''}" for b in kernel.buffers]
+    buffers = [
+        f"buffer {b.name}: {b.type}{' writable' if b.writable else ''}{' constant' if b.constant else ''}"
+        for b in kernel.buffers
+    ]
     printer.block(kernel.body, 0, f"kernel {kernel.name}")
     return "\n".join([*uniforms, *buffers, *printer.lines]) + "\n"
 

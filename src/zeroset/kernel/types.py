@@ -57,8 +57,10 @@ class Buffer(NamedTuple):
         name: how the runtime binds it.
         type: element type, not ``bool``.
         writable: whether stores and atomics are allowed.
+        constant: whether it is short as a rule and all lanes mostly read the same element: GPUs keep such data apart.
     """
 
     name: str
     type: Type
     writable: bool
+    constant: bool = False

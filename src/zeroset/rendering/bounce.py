@@ -172,7 +172,7 @@ class Bounces:
         """A buffer with these values, written anew where they have changed."""
         known = self._data.get(name)
         if known is None or len(known[1]) != len(values):
-            known = self._device.allocate(F32, max(len(values), 1)), values
+            known = self._device.allocate(F32, max(len(values), 1), constant=name == LIGHTS), values
             self._device.write(known[0], values)
         elif known[1] is not values and not np.array_equal(known[1], values):
             self._device.write(known[0], values)

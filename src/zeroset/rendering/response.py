@@ -132,7 +132,7 @@ class Response:
         return color, [bent, reflected] if optics.mirror else [_either(total, reflected, bent)]
 
     def _lights(self, point: Sequence[Value], seen: Face) -> Color:
-        data = self.builder.buffer(LIGHTS, F32)
+        data = self.builder.buffer(LIGHTS, F32, constant=True)
 
         def one(i: Value, *color: Value) -> tuple[Value, ...]:
             x, y, z, near, *tint, shorter = (load(data, i * LIGHT_WORDS + k) for k in range(LIGHT_WORDS))

@@ -75,7 +75,7 @@ class Arrays:
     def _buffer(self, key: str, values: Floats, type_: Type) -> Any:
         written = self._written.get(key)
         if written is None or len(written) != len(values):
-            self._buffers[key] = self._device.allocate(type_, len(values))
+            self._buffers[key] = self._device.allocate(type_, len(values), constant=True)
         if written is None or not np.array_equal(written, values):
             self._device.write(self._buffers[key], values)
             self._written[key] = values

@@ -45,7 +45,7 @@ class Signature(NamedTuple):
         return {
             "name": self.name,
             "uniforms": [[u.name, u.type.name] for u in self.uniforms],
-            "buffers": [[b.name, b.type.name, b.writable] for b in self.buffers],
+            "buffers": [[b.name, b.type.name, b.writable, b.constant] for b in self.buffers],
         }
 
     @classmethod
@@ -54,7 +54,7 @@ class Signature(NamedTuple):
         return cls(
             str(data["name"]),
             tuple(Uniform(name, TYPES[type_]) for name, type_ in data["uniforms"]),
-            tuple(Buffer(name, TYPES[type_], bool(writable)) for name, type_, writable in data["buffers"]),
+            tuple(Buffer(name, TYPES[type_], bool(w), bool(c)) for name, type_, w, c in data["buffers"]),
         )
 
 
@@ -146,8 +146,14 @@ class Device(Protocol):
         """The most bytes that a buffer may have."""
         ...
 
-    def allocate(self, type_: Type, count: int) -> Any:
-        """A buffer of zeros; ``DeviceError`` where there is no memory for it."""
+    def allocate(self, type_: Type, count: int, constant: bool = False) -> Any:
+        """A buffer of zeros; ``DeviceError`` where there is no memory for it.
+
+        Args:
+            type_: of its elements.
+            count: how many.
+            constant: whether kernels will call it so.
+        """
         ...
 
     def write(self, buffer: Any, values: Array) -> None:
@@ -187,7 +193,7 @@ class HostMemory:
         """Every type."""
         return True
 
-    def allocate(self, type_: Type, count: int) -> Array:
+    def allocate(self, type_: Type, count: int, constant: bool = False) -> Array:
         """An array of zeros, aligned to cache lines."""
         size = type_.size
         raw = np.zeros(count * size + 64, np.uint8)

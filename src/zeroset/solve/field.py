@@ -70,7 +70,9 @@ class Lowered:
         return self.builder.uniform(value, self.type), self.builder.uniform(error, self.type)
 
     def _array(self, name: str) -> tuple[Buffer, Buffer, Value]:
-        data, error = (self.builder.buffer(key, self.type) for key in array_names(self.prefix + name, self.type))
+        data, error = (
+            self.builder.buffer(key, self.type, constant=True) for key in array_names(self.prefix + name, self.type)
+        )
         return data, error, self.builder.uniform(length_name(self.prefix + name), U32)
 
     def evaluate(self, system: Any, x: Number, y: Number, z: Number) -> Number:

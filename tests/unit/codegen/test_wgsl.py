@@ -45,6 +45,20 @@ def test_a_whole_shader() -> None:
     assert "else" not in text
 
 
+def test_constants_lie_in_rows_of_16_bytes() -> None:
+    with KernelBuilder("look") as k:
+        i = k.index()
+        x, y = (k.buffer(name, type_, constant=True) for name, type_ in (("x", F32), ("y", F64)))
+        store(k.buffer("out", F32, writable=True), i, load(x, i) + load(y, i).convert(F32))
+    text = to_wgsl(k.kernel, TARGET)
+    assert "var<uniform> x_: array<vec4<f32>, 1024>;" in text
+    assert "= x_[lane / 4u][lane % 4u];" in text
+    assert "var<uniform> y_: array<vec2<f64>, 1024>;" in text
+    one = to_wgsl(k.kernel, GpuTarget(constants=1))
+    assert "var<uniform> x_" in one
+    assert "var<storage, read> y_: array<f64>;" in one
+
+
 def test_carried_values_change_all_at_once() -> None:
     with KernelBuilder("swap") as k:
         one, two = load(k.buffer("x", F32), 0), load(k.buffer("x", F32), 1)

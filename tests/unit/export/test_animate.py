@@ -84,9 +84,9 @@ class Counting(Meter):
         self.asked += 1
         return super().compile_cached(key, build, quick)
 
-    def allocate(self, type_: Type, count: int) -> Any:
+    def allocate(self, type_: Type, count: int, constant: bool = False) -> Any:
         self.allocated += 1
-        return super().allocate(type_, count)
+        return super().allocate(type_, count, constant)
 
     def copy(self, buffer: Any) -> Any:
         self.copied += 1

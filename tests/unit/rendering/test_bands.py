@@ -78,9 +78,9 @@ def test_rays_that_wait_need_no_larger_buffers(monkeypatch: pytest.MonkeyPatch) 
     allocated: list[int] = []
     allocate = CpuDevice.allocate
 
-    def counted(self: CpuDevice, type_: object, count: int) -> object:
+    def counted(self: CpuDevice, type_: object, count: int, constant: bool = False) -> object:
         allocated.append(count * 4)
-        return allocate(self, type_, count)  # type: ignore[arg-type]
+        return allocate(self, type_, count, constant)  # type: ignore[arg-type]
 
     monkeypatch.setattr(Narrow, "allocate", counted)
     look = {"material": zs.Material(opacity=0.3, reflectance=0.2), "depth": 12}

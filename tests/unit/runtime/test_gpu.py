@@ -41,6 +41,17 @@ def keep_odd() -> Kernel:
     return k.kernel
 
 
+def gather(type_: Type, arrays: int) -> Kernel:
+    """Each lane: the sum of every array's element at its place."""
+    with KernelBuilder("gather") as k:
+        i = k.index()
+        total = load(k.buffer("c0", type_, constant=True), i)
+        for n in range(1, arrays):
+            total = total + load(k.buffer(f"c{n}", type_, constant=True), i)
+        store(k.buffer("out", type_, writable=True), i, total)
+    return k.kernel
+
+
 @pytest.fixture(scope="module")
 def gpu() -> GpuDevice:
     device = get_device("gpu")
@@ -259,3 +270,28 @@ def test_the_clock_times_each_pass(gpu: GpuDevice) -> None:
     times = clock.stop()
     assert [label for label, _, _ in times] == ["add"] * 3
     assert all(end >= begin > 0 for _, begin, end in times)
+
+
+@needs_gpu
+@pytest.mark.parametrize("type_", [F32, U32, F64])
+@pytest.mark.parametrize(("arrays", "count"), [(1, 7), (1, 5000), (14, 100)])
+def test_constants_short_long_and_many(gpu: GpuDevice, type_: Type, arrays: int, count: int) -> None:
+    if not gpu.supports(type_):
+        pytest.skip("this GPU has no f64")
+    program = gpu.compile(gather(type_, arrays))
+    values = np.arange(count).astype(type_.dtype)
+    for again in (1, 2):
+        bound = {f"c{n}": gpu.allocate(type_, count, constant=True) for n in range(arrays)}
+        bound["out"] = gpu.allocate(type_, count)
+        for n in range(arrays):
+            gpu.write(bound[f"c{n}"], values * again)
+        program.run(count, {}, bound)
+        assert np.array_equal(gpu.read(bound["out"]), values * (arrays * again))
+        assert np.array_equal(gpu.read(gpu.copy(bound["c0"])), values * again)
+
+
+@needs_gpu
+def test_what_was_not_allocated_as_constants_is_refused(gpu: GpuDevice) -> None:
+    bound = {name: gpu.allocate(F32, 4) for name in ("c0", "out")}
+    with pytest.raises(DeviceError, match="needs the buffer c0 as one of constants"):
+        gpu.compile(gather(F32, 1)).run(4, {}, bound)

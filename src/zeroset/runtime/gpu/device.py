@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from zeroset.codegen.gpu_target import GpuTarget
@@ -57,9 +58,14 @@ class GpuDevice:
     def _use(self, target: GpuTarget) -> None:
         """Compile for a target from now on."""
         self.target = target
-        stamp = f"{target.identity}|{source_stamp()}"
-        self._programs = Programs(self.cache, stamp, self._write, self._translate, self._place)
+        self._programs = self._programs_for(target)
+        # Constants that are too many for the memory of constants are read like anything else.
+        self._longer = self._programs_for(replace(target, constants=0))
         self._counter: GpuProgram | None = None
+
+    def _programs_for(self, target: GpuTarget) -> Programs[GpuProgram]:
+        stamp = f"{target.identity}|{source_stamp()}"
+        return Programs(self.cache, stamp, partial(self._write, target), self._translate, partial(self._place, target))
 
     def _measure(self) -> Arithmetic:
         """See how the GPU calculates, and correct what is too coarse."""
@@ -93,31 +99,32 @@ class GpuDevice:
 
     def compile(self, kernel: Kernel) -> GpuProgram:
         """The program of a kernel; see ``Device.compile``."""
-        return self._programs.of(kernel)
+        return self._programs.of(kernel).or_longer(partial(self._longer.of, kernel))
 
     def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> GpuProgram:
         """The program under a key; see ``Device.compile_cached``. Drivers know no hurry."""
-        return self._programs.under(key, build)
+        return self._programs.under(key, build).or_longer(partial(self._longer.under, key, build))
 
     def begin_apart(self, recipes: Iterable[Recipe], perhaps: Iterable[Recipe] = ()) -> None:
         """Nothing: pipelines belong to this process."""
 
-    def _write(self, kernel: Kernel) -> str:
+    def _write(self, target: GpuTarget, kernel: Kernel) -> str:
         from zeroset.kernel.passes import optimise
 
-        return to_wgsl(optimise(kernel), self.target)
+        return to_wgsl(optimise(kernel), target)
 
     def _translate(self, kernel: Kernel, text: str, quick: bool) -> Compiled:
         return Compiled(Signature.of(kernel), 1, "wgsl", text.encode())
 
-    def _place(self, compiled: Compiled) -> GpuProgram:
-        return GpuProgram(Pipeline(self.handle, compiled, self._faults), self._record)
+    def _place(self, target: GpuTarget, compiled: Compiled) -> GpuProgram:
+        constant = target.constant(compiled.signature.buffers)
+        return GpuProgram(Pipeline(self.handle, compiled, constant, self._faults), self._record)
 
     # --------------------------------------------------------------- memory
 
-    def allocate(self, type_: Type, count: int) -> GpuBuffer:
+    def allocate(self, type_: Type, count: int, constant: bool = False) -> GpuBuffer:
         """A buffer of zeros."""
-        return self.memory.allocate(type_, count)
+        return self.memory.allocate(type_, count, constant)
 
     def write(self, buffer: GpuBuffer, values: Array) -> None:
         """Set the first elements of a buffer."""
@@ -133,7 +140,7 @@ class GpuDevice:
 
     def copy(self, buffer: GpuBuffer) -> GpuBuffer:
         """Another buffer with the same elements."""
-        made = self.allocate(buffer.type, buffer.count)
+        made = self.allocate(buffer.type, buffer.count, buffer.constant)
         with self._busy:
             self.stream.encoder().copy_buffer_to_buffer(buffer.handle, 0, made.handle, 0, buffer.bytes)
         return made

@@ -7,10 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from zeroset.codegen.gpu_target import CONSTANT_BYTES
 from zeroset.errors import DeviceError
 from zeroset.kernel.types import Type
 from zeroset.runtime.device import Array
 from zeroset.runtime.gpu.faults import SMALLER_HINT, Faults
+
+
+def _size(type_: Type, count: int, constant: bool) -> int:
+    """Bytes of a buffer: constants as many as shaders declare; wgpu wants multiples of four and no empty buffers."""
+    return max(count * type_.size, CONSTANT_BYTES if constant else 4)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,19 +27,26 @@ class GpuBuffer:
         type: of its elements.
         count: how many.
         handle: wgpu's buffer.
+        constant: whether it may be bound as constants.
     """
 
     type: Type
     count: int
     handle: Any
+    constant: bool = False
 
     def __len__(self) -> int:
         return self.count
 
     @property
     def bytes(self) -> int:
-        """Its size; wgpu wants multiples of four and no empty buffers."""
-        return max(self.count * self.type.size, 4)
+        """Its size."""
+        return _size(self.type, self.count, self.constant)
+
+    @property
+    def long(self) -> bool:
+        """Whether it has more elements than constants may have."""
+        return self.bytes > CONSTANT_BYTES
 
 
 class Memory:
@@ -50,11 +63,11 @@ class Memory:
         self.largest: int = min(device.limits["max-buffer-size"], device.limits["max-storage-buffer-binding-size"])
         self._staging: Any = None
 
-    def allocate(self, type_: Type, count: int) -> GpuBuffer:
+    def allocate(self, type_: Type, count: int, constant: bool = False) -> GpuBuffer:
         """A buffer of zeros."""
         import wgpu
 
-        size = max(count * type_.size, 4)
+        size = _size(type_, count, constant)
         if size > self.largest:
             raise DeviceError(
                 f"{self._faults.name} has buffers of at most {self.largest >> 20} MiB, not of {size >> 20} MiB",
@@ -62,8 +75,9 @@ class Memory:
             )
         use = wgpu.BufferUsage
         with self._faults.at(f"make a buffer of {size / 2**20:.1f} MiB", SMALLER_HINT):
-            handle = self._device.create_buffer(size=size, usage=use.STORAGE | use.COPY_SRC | use.COPY_DST)
-        return GpuBuffer(type_, count, handle)
+            uses = use.STORAGE | use.COPY_SRC | use.COPY_DST | (use.UNIFORM if constant else 0)
+            handle = self._device.create_buffer(size=size, usage=uses)
+        return GpuBuffer(type_, count, handle, constant)
 
     def write(self, buffer: GpuBuffer, values: Array) -> None:
         """Set the first elements."""

@@ -26,11 +26,13 @@ class Pipeline:
     Args:
         device: wgpu's device.
         compiled: the shader.
+        constant: the names of the buffers that it reads as constants.
         faults: of the GPU.
     """
 
-    def __init__(self, device: Any, compiled: Compiled, faults: Faults) -> None:
+    def __init__(self, device: Any, compiled: Compiled, constant: frozenset[str], faults: Faults) -> None:
         self.signature = compiled.signature
+        self.constant = constant
         self.layout = Layout(compiled.signature)
         self._device = device
         with faults.at(f"take the shader of {self.signature.name}"):
@@ -48,8 +50,13 @@ class Pipeline:
 
         compute = wgpu.ShaderStage.COMPUTE
         kinds = [{"type": "uniform", "has_dynamic_offset": True, "min_binding_size": self.layout.size}]
-        kinds += [{"type": "storage" if b.writable else "read-only-storage"} for b in self.signature.buffers]
+        kinds += [{"type": self._kind(b)} for b in self.signature.buffers]
         return [{"binding": i, "visibility": compute, "buffer": kind} for i, kind in enumerate(kinds)]
+
+    def _kind(self, buffer: Buffer) -> str:
+        if buffer.name in self.constant:
+            return "uniform"
+        return "storage" if buffer.writable else "read-only-storage"
 
     def group(self, slots: Slots, buffers: tuple[GpuBuffer, ...]) -> Any:
         """The bind group of a set of buffers."""
@@ -82,11 +89,21 @@ class GpuProgram:
         self.pipeline = pipeline
         self.signature: Signature = pipeline.signature
         self._record = record
+        self._longer: Callable[[], GpuProgram] | None = None
+
+    def or_longer(self, longer: Callable[[], GpuProgram]) -> GpuProgram:
+        """This program; ``longer`` gives the one for buffers that are too long to be constants."""
+        if self.pipeline.constant:
+            self._longer = longer
+        return self
 
     def run(self, count: int | Counted, uniforms: Mapping[str, float], buffers: Mapping[str, Any]) -> None:
         """Run lanes; see ``Program.run``."""
         data = self.pipeline.layout.pack(uniforms)
         bound = tuple(self._checked(b, buffers.get(b.name)) for b in self.signature.buffers)
+        if self._longer is not None and any(g.constant and g.long for g in bound):
+            self._longer().run(count, uniforms, buffers)
+            return
         if isinstance(count, int) and not check_count(self.signature, count):
             return
         self._record(self.pipeline, count, data, bound)
@@ -97,4 +114,6 @@ class GpuProgram:
             raise DeviceError(
                 f"kernel {self.signature.name} needs the buffer {buffer.name} of {buffer.type} on the GPU, not {what}"
             )
+        if buffer.name in self.pipeline.constant and not given.constant:
+            raise DeviceError(f"kernel {self.signature.name} needs the buffer {buffer.name} as one of constants")
         return given
