@@ -179,7 +179,7 @@ class Frame:
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
             shown.keep()
-        bound = self._tracer.begin(drawn, uniforms, self._buffers, self.layout.tiles)
+        bound = self._tracer.begin(drawn, uniforms, self._buffers, self.layout.tiles, draft)
         if drawn.parts > 1:
             bound = {**bound, MATERIALS: self._materials.holding(material_table(materials))}
         lanes = self.layout.lanes

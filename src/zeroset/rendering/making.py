@@ -74,6 +74,10 @@ class Making:
         coming = self._coming.get(name)
         return coming is not None and not coming.done()
 
+    def ready(self, name: str) -> bool:
+        """Whether a program is there."""
+        return name in self._programs or (name in self._coming and self._coming[name].done())
+
     def get(self, name: str) -> Program:
         """A program; waits for it, or makes it here where nobody has begun."""
         waiting = self._coming.pop(name, None)

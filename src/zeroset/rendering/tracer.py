@@ -39,7 +39,11 @@ from zeroset.solve.method import Method
 from zeroset.solve.shape import Shape
 
 Buffers = Mapping[str, Any]
-DRAFT = ("beams", "first", "shadow")
+AIM = "beams"
+"""The pass that only spares the others work: on a GPU the first draft of a surface does not wait for its program."""
+STEPS = 8
+"""Steps that a ray without a beam begins with."""
+DRAFT = (AIM, "first", "shadow")
 """The passes of a draft, which leaves out second looks and thin parts."""
 ORDER = (*DRAFT, "thin", "second")
 """Passes in the order in which their programs are made."""
@@ -47,7 +51,7 @@ RARE = "parts"
 """The pass that many pictures need nothing of: its program is made when a pixel asks, or after the first picture."""
 LATE = ("thin", "second", RARE)
 """Passes that a picture needs last: where there is another process, it makes their programs."""
-QUICK = ("beams", *LATE)
+QUICK = (AIM, *LATE)
 """Passes that take little of a small picture's time; their programs are made in a hurry for the first one."""
 AT_ONCE = 5
 """Programs that are made side by side: compilers are to be kept at work while other kernels are being traced."""
@@ -150,7 +154,7 @@ class Tracer:
         if self.exact:
             made["second"] = second
         if self.beams:
-            made |= {"beams": beams, "thin": thin}
+            made |= {AIM: beams, "thin": thin}
         if self._again:
             made[RARE] = parts
         return made
@@ -176,13 +180,17 @@ class Tracer:
             hurry: whether a first picture is so small that compiling for it takes longer than drawing it.
         """
         passes = [name for name in (DRAFT if draft else ORDER) if name in self._making]
+        if self._unaimed(draft) and not self._drawn:
+            passes.remove(AIM)
         self._hurry = hurry and not self._drawn
         wanted = [*passes[:-1], *self._shared, *passes[-1:]]
         more = [RARE] if self._again and not draft else []
-        if self._device.name == "gpu":
+        if self._device.name == "gpu" and draft:
+            # The driver compiles the first shader while the second is traced, one tracing at a time.
+            self._making.begin([*passes, *self._shared], 1)
+        elif self._device.name == "gpu":
             # A GPU cannot say without being waited for whether a list is empty, so that it needs every program.
-            # A draft: the driver compiles the first shader while the second is traced, one tracing at a time.
-            self._making.begin([*wanted, *more], 1 if draft else 2)
+            self._making.begin([*wanted, *more], 2)
         elif self._drawn:
             # Who draws once more may do so often: then nothing that is still to come shall hold up a picture.
             self._making.begin([*wanted, *more], AT_ONCE)
@@ -192,8 +200,7 @@ class Tracer:
 
     def settle(self) -> None:
         """Wait until everything is there that was begun or that another picture may ask for, and as good as it gets."""
-        if self._again:
-            self._making.begin((RARE,), 1)
+        self._making.begin([name for name in (AIM, RARE) if name in self._making], 1)
         self._making.settle()
 
     def outputs(self, rays: int) -> dict[str, Any]:
@@ -218,18 +225,33 @@ class Tracer:
             made |= {name: self._device.allocate(type_, rays) for name, type_ in listed.items()}
         return made
 
-    def begin(self, drawn: Drawn, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> Buffers:
+    def begin(
+        self, drawn: Drawn, uniforms: Mapping[str, float], buffers: Buffers, tiles: int, draft: bool = False
+    ) -> Buffers:
         """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters."""
         self._drawn = True
         bound = {**buffers, **drawn.bind(self._arrays)} if drawn.arrays else buffers
         self._device.clear(buffers[COUNTERS])
         if self.beams:
             self._device.clear(buffers[MISSED])
-            self.program("beams").run(tiles, uniforms, bound)
+            if self._unaimed(draft) and not self._making.ready(AIM):
+                self._aim_nowhere(uniforms, buffers, tiles)
+                return bound
+            self.program(AIM).run(tiles, uniforms, bound)
             if self._making.pending("first"):
                 # A driver that compiles when a shader first runs may do so while the next one is being written.
                 self._device.submit()
         return bound
+
+    def _unaimed(self, draft: bool) -> bool:
+        """Whether rays may have no beam yet: GPUs' drivers compile one shader after the other, when it first runs."""
+        return draft and self.beams and self._device.name == "gpu"
+
+    def _aim_nowhere(self, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> None:
+        """Say of every tile that its rays may meet something anywhere."""
+        near, far = uniforms["near"], uniforms["far"]
+        for name, value in (("tile_start", near), ("tile_step", (far - near) / STEPS)):
+            self._device.write(buffers[name], np.full(tiles, value, np.float32))
 
     def first_look(self, uniforms: Mapping[str, float], bound: Buffers, first: int, count: int) -> None:
         """Trace a run of rays."""

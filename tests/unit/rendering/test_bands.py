@@ -59,14 +59,6 @@ def test_progress_of_all_bands(cramped: Cramped) -> None:
     assert 0.9 < told[-1] <= 1.0
 
 
-def test_a_draft_leaves_out_what_few_pixels_need() -> None:
-    steiner = zs.gallery["steiner"]
-    draft, whole = (zs.render(steiner, 256, draft=draft, device="cpu") for draft in (True, False))
-    assert whole.hits > draft.hits
-    missing = (whole.aov("status") != zs.MISS) & (draft.aov("status") == zs.MISS)
-    assert np.all(whole.aov("status")[missing] == zs.UNRESOLVED)
-
-
 class Narrow(CpuDevice):
     """A CPU whose largest buffer holds 2,048 tiles."""
 

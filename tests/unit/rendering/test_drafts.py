@@ -1,0 +1,66 @@
+"""Drafts: what they leave out, and which programs the first of them waits for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.gpus import needs_gpu
+
+import zeroset as zs
+from zeroset.bench.meter import Meter
+from zeroset.kernel import Kernel
+from zeroset.rendering.frame import settle
+from zeroset.runtime import Program, get_device
+
+
+class Noting(Meter):
+    """A device that remembers which passes it was asked to make, by the first word of their keys."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(get_device(name))
+        self.asked: set[str] = set()
+
+    def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> Program:
+        self.asked.add(key.split()[0])
+        return super().compile_cached(key, build, quick)
+
+
+def drawn(device: Any, **options: Any) -> zs.Image:
+    return zs.render(zs.gallery["tangle"], 96, device=device, **options)
+
+
+def differing(one: zs.Image, other: zs.Image) -> int:
+    return int(np.count_nonzero(one.aov("status") != other.aov("status")))
+
+
+def test_a_draft_leaves_out_what_few_pixels_need() -> None:
+    steiner = zs.gallery["steiner"]
+    draft, whole = (zs.render(steiner, 256, draft=draft, device="cpu") for draft in (True, False))
+    assert whole.hits > draft.hits
+    missing = (whole.aov("status") != zs.MISS) & (draft.aov("status") == zs.MISS)
+    assert np.all(whole.aov("status")[missing] == zs.UNRESOLVED)
+
+
+@needs_gpu
+def test_a_gpus_first_draft_does_without_beams_and_shows_the_same() -> None:
+    device = Noting("gpu")
+    first = drawn(device, draft=True)
+    assert first.hits > 1000
+    assert device.asked == {"first", "shade"}
+    settle()
+    assert device.asked >= {"beams", "first", "shade"}
+    aimed = drawn(device, draft=True)
+    assert differing(first, aimed) == 0
+    assert np.allclose(first.aov("depth"), aimed.aov("depth"), atol=2e-3)
+    # Beams are of use: rays start near what they meet.
+    assert aimed.aov("steps").sum() < first.aov("steps").sum()
+
+
+@pytest.mark.parametrize("options", [{}, {"draft": True}])
+def test_all_other_pictures_have_beams(options: dict[str, Any]) -> None:
+    device = Noting("cpu")
+    drawn(device, **options)
+    assert "beams" in device.asked
