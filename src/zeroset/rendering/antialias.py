@@ -81,21 +81,36 @@ def edge_kernel(beams: bool, parts: bool = False) -> Kernel:
     with KernelBuilder("edges") as builder:
         lane = builder.index() + builder.uniform("first", U32)
         column, row = pixel_place(builder, lane)
-        width, height = builder.uniform("width", U32), builder.uniform("height", U32)
-        inside = (column < width) & (row < height)
-        thin = load(builder.buffer("status", U32), lane).eq(UNRESOLVED)
-        everywhere = builder.uniform("everywhere", U32).ne(0)
-        # A tile that its beam has shown to be empty is smooth as it is.
-        start = load(builder.buffer("tile_start", F32), tile_of(lane)) if beams else constant(0.0, F32)
-
-        def look() -> None:
-            names = {"status": U32, "t": F32, **dict.fromkeys(NORMAL, F32), **({PART: U32} if parts else {})}
-            buffers = [builder.buffer(name, type_) for name, type_ in names.items()]
-            edge = everywhere | _Look(builder, lane, column, row, buffers).at_edge()
-            if_(edge, lambda: _list(builder, lane))
-
-        if_(inside & ~thin & (start < EMPTY_TILE), look)
+        inside = (column < builder.uniform("width", U32)) & (row < builder.uniform("height", U32))
+        list_edge(builder, lane, (column, row), inside, beams, parts)
     return builder.kernel
+
+
+def list_edge(
+    builder: KernelBuilder, lane: Value, place: tuple[Value, Value], inside: Value, beams: bool, parts: bool
+) -> None:
+    """Put a pixel on the list if it is at an edge; see ``edge_kernel``.
+
+    Args:
+        builder: of the kernel.
+        lane: the pixel's.
+        place: its column and row.
+        inside: whether it is in the frame.
+        beams: whether tiles have beams.
+        parts: whether there are several parts.
+    """
+    thin = load(builder.buffer("status", U32), lane).eq(UNRESOLVED)
+    everywhere = builder.uniform("everywhere", U32).ne(0)
+    # A tile that its beam has shown to be empty is smooth as it is.
+    start = load(builder.buffer("tile_start", F32), tile_of(lane)) if beams else constant(0.0, F32)
+
+    def look() -> None:
+        names = {"status": U32, "t": F32, **dict.fromkeys(NORMAL, F32), **({PART: U32} if parts else {})}
+        buffers = [builder.buffer(name, type_) for name, type_ in names.items()]
+        edge = everywhere | _Look(builder, lane, *place, buffers).at_edge()
+        if_(edge, lambda: _list(builder, lane))
+
+    if_(inside & ~thin & (start < EMPTY_TILE), look)
 
 
 def _list(builder: KernelBuilder, lane: Value) -> None:

@@ -49,6 +49,7 @@ class Bounces:
         layout: of the frame.
         device: where.
         tint: what the surface is coloured by; None for nothing.
+        shader: the program that shades what was found and lists its edges, where the first hit is all; None elsewhere.
 
     Attributes:
         exact: whether they read all numbers in f64 too.
@@ -63,6 +64,7 @@ class Bounces:
         layout: Layout,
         device: Device,
         tint: Tint | None = None,
+        shader: str | None = None,
     ) -> None:
         shape, offset = drawn.shape, method.offset != 0.0
         several = shape.parts > 1
@@ -86,11 +88,12 @@ class Bounces:
         self.exact = optics.through and tracer.exact
         own = f"{shape.digest} {offset} {optics} {self.exact}{'' if tint is None else f' {tint.digest}'}"
         self._path, self._sample = f"path {own}", f"sample {own} {tracer.beams}"
-        self._edges = f"edges {tracer.beams} {several}"
+        self._edges = shader or f"edges {tracer.beams} {several}"
         if not optics.plain:
             tracer.add(self._path, path)
         if optics.smooth:
-            tracer.add(self._edges, edges)
+            if shader is None:
+                tracer.add(self._edges, edges)
             tracer.add(self._sample, sample)
         self._optics = optics
         self._tracer = tracer

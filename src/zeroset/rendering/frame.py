@@ -114,7 +114,7 @@ class Frame:
         def shader() -> Kernel:
             from zeroset.rendering.shade import shade_kernel
 
-            return shade_kernel(lighting, drawn.parts)
+            return shade_kernel(lighting, drawn.parts, self._tracer.beams)
 
         self.layout = layout
         self.device = device
@@ -122,7 +122,7 @@ class Frame:
         optics = lighting.optics
         ends = () if optics is None else optics.ends
         self._tracer = Tracer(drawn, method, device, True, shadows=lighting.shadows, ends=ends)
-        self._shader = f"shade {lighting} {drawn.parts > 1}"
+        self._shader = f"shade {lighting} {drawn.parts > 1} {self._tracer.beams}"
         self._bounces: Bounces | None = None
         self._colors: Colors | None = None
         # Colours and bounces are imported where there are any: most pictures have neither.
@@ -136,7 +136,8 @@ class Frame:
         if optics is not None:
             from zeroset.rendering.bounce import Bounces
 
-            self._bounces = Bounces(self._tracer, drawn, method, optics, layout, device, tint)
+            lists = self._shader if optics.plain else None
+            self._bounces = Bounces(self._tracer, drawn, method, optics, layout, device, tint, lists)
         self.compile(draft)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
         self._fields = fields(drawn.parts)
@@ -203,7 +204,8 @@ class Frame:
         if self._shades:
             if light is not None and LIT in self._buffers:
                 self._tracer.shadows(light.shadows, uniforms, bound)
-            self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
+            if self._bounces is None:
+                self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
         if self._bounces is not None and light is not None:
             if self._bounces.exact:
                 exact, arrays = self._tracer.in_doubles(drawn)

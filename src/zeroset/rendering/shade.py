@@ -16,10 +16,23 @@ from zeroset.solve.field import Ray
 from zeroset.solve.status import MISS
 
 
-def shade_kernel(lighting: Lighting, parts: int = 1) -> Kernel:
-    """Blinn-Phong over the background; the lighting and how many parts there are shape the kernel."""
+def shade_kernel(lighting: Lighting, parts: int = 1, beams: bool = False) -> Kernel:
+    """Blinn-Phong over the background; lists the pixels at edges as well, where these are to be smooth.
+
+    Both read the same of a pixel, which comes out of memory once.
+
+    Args:
+        lighting: shapes the kernel.
+        parts: how many there are.
+        beams: whether tiles have beams.
+
+    Where edges are listed, there are the uniforms of ``antialias.edge_kernel``.
+    """
+    smooth = lighting.optics is not None and lighting.optics.smooth
     with KernelBuilder("shade") as builder:
         lane = builder.index()
+        if smooth:
+            lane = lane + builder.uniform("first", U32)
         hit = load(builder.buffer("status", U32), lane).ne(MISS)
 
         def lit() -> tuple[object, ...]:
@@ -38,6 +51,10 @@ def shade_kernel(lighting: Lighting, parts: int = 1) -> Kernel:
         width = builder.uniform("width", U32)
         inside = (column < width) & (row < builder.uniform("height", U32))
         if_(inside, lambda: store(rgba, row * width + column, color))
+        if smooth:
+            from zeroset.rendering.antialias import list_edge
+
+            list_edge(builder, lane, (column, row), inside, beams, parts > 1)
     return builder.kernel
 
 
