@@ -11,7 +11,7 @@ from zeroset.bench.printed import printed_tables
 from zeroset.bench.table import Table
 from zeroset.bench.timing import Times
 
-ORDER = ("beams", "primary", "second", "thin", "parts", "count", "shade")
+ORDER = ("beams", "primary", "second", "parts", "count", "shade")
 """Passes as a frame runs them; ``count`` comes between the others."""
 
 

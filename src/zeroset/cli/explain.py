@@ -30,7 +30,7 @@ TRACED = "traced"
 @click.command("explain", cls=FormulaCommand)
 @surface_options
 @click.option("--dag", is_flag=True, help="List all operations of the formula.")
-@click.option("--kernel", metavar="NAME", help="Show one kernel: beams, primary, second, thin or shade.")
+@click.option("--kernel", metavar="NAME", help="Show one kernel: beams, primary, second, parts or shade.")
 @click.option("--pass", "pass_name", metavar="NAME", help="Show it after this pass ('traced': before the first).")
 @click.option("--passes", is_flag=True, help="Show it after each pass that changes it.")
 @click.option("--target", metavar="CODE", help="Show the code made of it: llvm, asm or wgsl.")
@@ -73,7 +73,7 @@ def kernels(scene: Scene, method: Method) -> Mapping[str, Callable[[], Kernel]]:
 
     # Nothing is run, so any device will do.
     tracer = Tracer(scene.surface, method, get_device("interp"), pixels=True)
-    passes = {"beams": "beams", "primary": "first", "second": "second", "thin": "thin", "parts": "parts"}
+    passes = {"beams": "beams", "primary": "first", "second": "second", "parts": "parts"}
     if not method.certified:
         passes = {"primary": "first"}
     made: dict[str, Callable[[], Kernel]] = {

@@ -23,6 +23,10 @@ MISSED = "block_missed"
 """For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not."""
 
 
+IN_TILES, IN_BLOCKS, IN_QUARTERS, IN_PIXELS, IN_PARTS = 0, 1, 2, 3, 4
+"""What beams are traced through (``cells``): values of the uniform ``level``."""
+
+
 class CellList(NamedTuple):
     """A list of cells that may hold something thinner than a pixel.
 

@@ -1,22 +1,32 @@
-"""What a lane of the search for thin parts looks at: a block of 4x4 pixels, a quarter of it, a pixel, or a part.
+"""What a beam is traced through: a tile of 8x8 pixels, a block of 4x4, a quarter of it, a pixel, or a part of a pixel.
 
-A run at one level puts what it cannot rule out on a list, and the next one has four lanes for each entry, sixteen for
-a pixel. An enclosure's error shrinks with the square of its width, so that each level is sharper than the one before,
-and a list's entry says up to where it was clear, so that none looks twice at what lies before.
+A tile's beam says where its rays start. The other levels look for thin parts: a run at one level puts what it cannot
+rule out on a list, and the next one has four lanes for each entry, sixteen for a pixel. An enclosure's error shrinks
+with the square of its width, so that each level is sharper than the one before, and a list's entry says up to where it
+was clear, so that none looks twice at what lies before.
 """
 
 from __future__ import annotations
 
 from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Type, Value, constant, load
-from zeroset.rendering.buffers import BLOCK, FIELDS, MISSED, THIN, THIN_PIXEL
+from zeroset.rendering.buffers import (
+    BLOCK,
+    FIELDS,
+    IN_PARTS,
+    IN_PIXELS,
+    IN_QUARTERS,
+    IN_TILES,
+    MISSED,
+    THIN,
+    THIN_PIXEL,
+)
 from zeroset.rendering.layout import TILE, tile_of
+from zeroset.rendering.primary import t_range
 from zeroset.solve.status import MISS
 
-IN_BLOCKS, IN_QUARTERS, IN_PIXELS, IN_PARTS = 0, 1, 2, 3
-"""Values of the uniform ``level``."""
-WIDTHS = 4.0, 2.0, 1.0, 0.25
+WIDTHS = 8.0, 4.0, 2.0, 1.0, 0.25
 """Side of what a lane looks at, in pixels."""
-FINENESS = 1.0, 0.5, 0.125, 0.125
+FINENESS = 1.0, 1.0, 0.5, 0.125, 0.125
 """The shortest step along a beam as a part of its width."""
 HALF = 0.505
 """Half a side, and a hundredth for how coordinates are rounded: between two neighbours nothing gets lost."""
@@ -57,11 +67,13 @@ class Cells:
         part: which of sixteen parts of a pixel it is.
         lane: its pixel, or the first of its pixels.
         width: side of what it looks at, in pixels.
+        tiles: the buffers of where the rays of tiles start, and with what step.
     """
 
     def __init__(self, builder: KernelBuilder) -> None:
         self._builder = builder
         self.level = builder.uniform("level", U32)
+        self.tiles = [builder.buffer(name, F32, writable=True) for name in ("tile_start", "tile_step")]
         index = builder.index()
         self.place = self.level.eq(IN_PARTS).select(index >> 4, index >> 2)
         self.part = index & (BLOCK - 1)
@@ -69,6 +81,7 @@ class Cells:
         right, below = index & 1, (index >> 1) & 1
         # A block's lanes are its rows, one after the other.
         self.lane = self._pick(
+            index << 6,
             index << 4,
             block + (below << 3) + (right << 1),
             quarter + (below << 2) + right,
@@ -79,19 +92,20 @@ class Cells:
     def middle(self) -> tuple[Value, Value]:
         """How far, in pixels, the middle of what a lane looks at is from its pixel's, to the right and down."""
         right, below = part_offset(self.part)
-        block, quarter, pixel = (constant(0.5 * width - 0.5, F32) for width in WIDTHS[:IN_PARTS])
-        return self._pick(block, quarter, pixel, right), self._pick(block, quarter, pixel, below)
+        whole = [constant(0.5 * width - 0.5, F32) for width in WIDTHS[:IN_PARTS]]
+        return self._pick(*whole, right), self._pick(*whole, below)
 
     def start(self) -> tuple[Value, Value]:
         """Where on its beam a lane starts, and with what step: as its tile's beam has left it, or the level before."""
-        tile = tile_of(self.lane)
-        start, step = (load(self._builder.buffer(name, F32), tile) for name in ("tile_start", "tile_step"))
+        near, far = t_range(self._builder)
+        start, step = (load(tile, tile_of(self.lane)) for tile in self.tiles)
         block, quarter = (
             self._listed(THIN[kind].reach, level, F32) - shortest(self._builder, WIDTHS[level - 1])
             for kind, level in _PARENTS
         )
-        reach = self._pick(start, block, quarter, reached(self._builder, self.lane))
-        return start.maximum(reach), step
+        reach = self._pick(near, start, block, quarter, reached(self._builder, self.lane))
+        whole = self.level.eq(IN_TILES)
+        return whole.select(near, start.maximum(reach)), whole.select((far - near) * 0.25, step)
 
     def finest(self) -> Value:
         """The shortest step along a lane's beam."""
@@ -102,17 +116,21 @@ class Cells:
         status = self._builder.buffer("status", U32, writable=True)
         missed, *others = (load(status, self.lane + i).eq(MISS) for i in (0, 1, 4, 5))
         marked = load(self._builder.buffer(MISSED, U32, writable=True), self.lane >> 4).ne(0)
-        return self._pick(marked, missed | others[0] | others[1] | others[2], missed, constant(True, BOOL))
+        always = constant(True, BOOL)
+        return self._pick(always, marked, missed | others[0] | others[1] | others[2], missed, always)
 
     def _listed(self, name: str, level: int, type_: Type = U32) -> Value:
         """An entry of a list that a level reads; the first one at all others."""
         return load(self._builder.buffer(name, type_, writable=True), self.level.eq(level).select(self.place, 0))
 
-    def _pick(self, blocks: Value, quarters: Value, pixels: Value, parts: Value) -> Value:
-        fine = self.level.eq(IN_PIXELS).select(pixels, parts)
-        return self.level.eq(IN_BLOCKS).select(blocks, self.level.eq(IN_QUARTERS).select(quarters, fine))
+    def _pick(self, *values: Value) -> Value:
+        """The value of this run's level."""
+        picked = values[-1]
+        for level in range(len(values) - 1):
+            picked = self.level.eq(level).select(values[level], picked)
+        return picked
 
-    def _number(self, values: tuple[float, float, float, float]) -> Value:
+    def _number(self, values: tuple[float, ...]) -> Value:
         return self._pick(*(constant(v, F32) for v in values))
 
 

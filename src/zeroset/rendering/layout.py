@@ -139,10 +139,3 @@ def pixel_coordinates(builder: KernelBuilder, lane: Value) -> tuple[Value, Value
     """u and v of the middle of a lane's pixel."""
     column, row = pixel_place(builder, lane)
     return frame_coordinates(builder, column.convert(F32) + 0.5, row.convert(F32) + 0.5)
-
-
-def tile_coordinates(builder: KernelBuilder, tile: Value) -> tuple[Value, Value]:
-    """u and v of the middle of a tile."""
-    column, row = _tile_corner(builder, tile)
-    middle = 0.5 * TILE
-    return frame_coordinates(builder, (column << 3).convert(F32) + middle, (row << 3).convert(F32) + middle)

@@ -10,14 +10,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, if_, load, while_
-from zeroset.rendering.buffers import THIN_PIXEL, Ends
-from zeroset.rendering.cells import FINENESS, HALF, IN_PARTS, WIDTHS, part_offset, place_of, reached, shortest
+from zeroset.rendering.beams import thin_answer
+from zeroset.rendering.buffers import IN_PARTS, THIN_PIXEL, Ends
+from zeroset.rendering.cells import FINENESS, HALF, WIDTHS, part_offset, place_of, reached, shortest
 from zeroset.rendering.gbuffer import write
 from zeroset.rendering.layout import pixel_place, tile_of
 from zeroset.rendering.primary import camera_ray, exact_ray, t_range
-from zeroset.rendering.thin import thin_answer
 from zeroset.rendering.view import frame_patch
-from zeroset.solve.beam import Thin, find_anything
+from zeroset.solve.beam import Beam, find_anything
 from zeroset.solve.shape import Shape
 from zeroset.solve.subject import Subject
 
@@ -116,7 +116,7 @@ class _Pixel:
         self.finest = shortest(builder, WIDTHS[IN_PARTS] * FINENESS[IN_PARTS]).convert(F64)
         self.window = self.finest * WINDOW
 
-    def search(self, part: Value, now: _State) -> Thin:
+    def search(self, part: Value, now: _State) -> Beam:
         """Look for anything in one part, or in a quarter of it."""
         right, below = (x.convert(F64) for x in part_offset(part))
         aside = constant(0.25 * WIDTHS[IN_PARTS], F64)

@@ -1,4 +1,4 @@
-"""The kernels that find surfaces: beams over tiles, one ray a pixel, rays that a caller brings, and second looks.
+"""The kernels that find surfaces: one ray a pixel, rays that a caller brings, and second looks.
 
 A second look is for rays that a certified method left unresolved in f32, mostly because rounding hid a sign, and for
 hits where f is so flat that no slope has proven them, nor tells a normal: the same ray is searched again in f64, from
@@ -7,13 +7,12 @@ where the first search had proven it clear. It goes to the few rays on the list 
 
 from __future__ import annotations
 
-from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load, store
+from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load
 from zeroset.rendering.buffers import SECOND, Ends
 from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write, write_ends
-from zeroset.rendering.layout import TILE, pixel_coordinates, tile_coordinates, tile_of
-from zeroset.rendering.view import frame_patch, pixel_ray
+from zeroset.rendering.layout import pixel_coordinates, tile_of
+from zeroset.rendering.view import pixel_ray
 from zeroset.scene.clip import clip
-from zeroset.solve.beam import trace_beam
 from zeroset.solve.field import Ray
 from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
@@ -134,17 +133,3 @@ def in_doubles(rough: Problem, clear: Value) -> Problem:
     start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
     # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
     return Problem(rough.lowered, ray, start, end, tolerance * FINER, tolerance * 4.0, rough.body)
-
-
-def beam_kernel(shape: Shape, offset: bool) -> Kernel:
-    """One beam a tile."""
-    with KernelBuilder("beams") as builder:
-        lane = builder.index()
-        subject = Subject(shape, builder, offset=offset)
-        # Half a tile, and a pixel's rounding more.
-        half = builder.uniform("pixel", F32) * (0.5 * TILE + 0.01)
-        patch = frame_patch(builder, subject, *tile_coordinates(builder, lane), half)
-        beam = trace_beam(patch, *t_range(builder), builder.uniform("finest", F32))
-        store(builder.buffer("tile_start", F32, writable=True), lane, beam.empty.select(EMPTY_TILE, beam.start))
-        store(builder.buffer("tile_step", F32, writable=True), lane, beam.step)
-    return builder.kernel

@@ -17,6 +17,8 @@ from zeroset.rendering.buffers import (
     COUNTERS,
     FORMER,
     FROM,
+    IN_BLOCKS,
+    IN_TILES,
     LISTS,
     LIT,
     MISSED,
@@ -40,18 +42,18 @@ from zeroset.solve.shape import Shape
 
 Buffers = Mapping[str, Any]
 AIM = "beams"
-"""The pass that only spares the others work: on a GPU the first draft of a surface does not wait for its program."""
+"""The pass that only spares the others work: the first draft of a surface does not wait for its program."""
 STEPS = 8
 """Steps that a ray without a beam begins with."""
 DRAFT = (AIM, "first", "shadow")
 """The passes of a draft, which leaves out second looks and thin parts."""
-ORDER = (*DRAFT, "thin", "second")
+ORDER = (*DRAFT, "second")
 """Passes in the order in which their programs are made."""
 RARE = "parts"
 """The pass that many pictures need nothing of: its program is made when a pixel asks, or after the first picture."""
-LATE = ("thin", "second", RARE)
-"""Passes that a picture needs last: where there is another process, it makes their programs."""
-QUICK = (AIM, *LATE)
+APART = (AIM, RARE)
+"""Passes whose programs another process makes, where there is one: about half of the work."""
+QUICK = (AIM, "second", RARE)
 """Passes that take little of a small picture's time; their programs are made in a hurry for the first one."""
 AT_ONCE = 5
 """Programs that are made side by side: compilers are to be kept at work while other kernels are being traced."""
@@ -95,7 +97,8 @@ class Tracer:
         self.exact = method.certified and device.supports(F64)
         self._again = self.exact and self.beams
         self._arrays = Arrays(device)
-        shape = as_drawn(surface).shape
+        whole = as_drawn(surface)
+        shape, self._sums = whole.shape, whole.arrays
         self._parts = shape.parts
         self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {self.exact} {' '.join(ends)}"
         self._shared: list[str] = []
@@ -129,14 +132,9 @@ class Tracer:
             return second_kernel(shape, offset, pixels, ends, self.beams)
 
         def beams() -> Kernel:
-            from zeroset.rendering.primary import beam_kernel
+            from zeroset.rendering.beams import beam_kernel
 
-            return beam_kernel(shape, offset)
-
-        def thin() -> Kernel:
-            from zeroset.rendering.thin import thin_kernel
-
-            return thin_kernel(shape, offset, ends, self._again)
+            return beam_kernel(shape, offset, ends, self._again)
 
         def parts() -> Kernel:
             from zeroset.rendering.parts import parts_kernel
@@ -154,7 +152,7 @@ class Tracer:
         if self.exact:
             made["second"] = second
         if self.beams:
-            made |= {AIM: beams, "thin": thin}
+            made[AIM] = beams
         if self._again:
             made[RARE] = parts
         return made
@@ -183,20 +181,20 @@ class Tracer:
         if self._unaimed(draft) and not self._drawn:
             passes.remove(AIM)
         self._hurry = hurry and not self._drawn
-        wanted = [*passes[:-1], *self._shared, *passes[-1:]]
+        # Of what a whole picture needs, second looks come last.
+        before = passes if draft else passes[:-1]
+        wanted = [*before, *self._shared, *passes[len(before) :]]
         more = [RARE] if self._again and not draft else []
-        if self._device.name == "gpu" and draft:
-            # The driver compiles the first shader while the second is traced, one tracing at a time.
-            self._making.begin([*passes, *self._shared], 1)
-        elif self._device.name == "gpu":
+        if self._device.name == "gpu":
             # A GPU cannot say without being waited for whether a list is empty, so that it needs every program.
-            self._making.begin([*wanted, *more], 2)
+            # A draft: the driver compiles the first shader while the second is traced, one tracing at a time.
+            self._making.begin([*wanted, *more], 1 if draft else 2)
         elif self._drawn:
             # Who draws once more may do so often: then nothing that is still to come shall hold up a picture.
             self._making.begin([*wanted, *more], AT_ONCE)
             self._making.improve()
         else:
-            self._making.begin(wanted, AT_ONCE, (*QUICK, *self._shared) if hurry else (), LATE)
+            self._making.begin(wanted, AT_ONCE, (*QUICK, *self._shared) if hurry else (), APART)
 
     def settle(self) -> None:
         """Wait until everything is there that was begun or that another picture may ask for, and as good as it gets."""
@@ -237,15 +235,19 @@ class Tracer:
             if self._unaimed(draft) and not self._making.ready(AIM):
                 self._aim_nowhere(uniforms, buffers, tiles)
                 return bound
-            self.program(AIM).run(tiles, uniforms, bound)
+            self.program(AIM).run(tiles, {**uniforms, "level": IN_TILES}, bound)
             if self._making.pending("first"):
                 # A driver that compiles when a shader first runs may do so while the next one is being written.
                 self._device.submit()
         return bound
 
     def _unaimed(self, draft: bool) -> bool:
-        """Whether rays may have no beam yet: GPUs' drivers compile one shader after the other, when it first runs."""
-        return draft and self.beams and self._device.name == "gpu"
+        """Whether rays may have no beam yet.
+
+        A sum is a short text and long in every step: on a CPU its beams are there soon, and worth it. GPUs' drivers
+        compile one shader after the other.
+        """
+        return draft and self.beams and not (self._sums and self._device.name == "cpu")
 
     def _aim_nowhere(self, uniforms: Mapping[str, float], buffers: Buffers, tiles: int) -> None:
         """Say of every tile that its rays may meet something anywhere."""
@@ -303,11 +305,11 @@ class Tracer:
         """Draw what lies between the rays: by blocks, quarters of those, pixels, and parts of those, last in f64."""
         if not self.beams:
             return
-        program = self.program("thin")
-        program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "level": 0}, bound)
+        program = self.program(AIM)
+        program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "level": IN_BLOCKS}, bound)
         # What one run puts on a list, the next looks at in pieces.
-        for level, each in ((1, 4), (2, 4), (3, BLOCK)):
-            program.run(Counted(bound[COUNTERS], level, each), {**uniforms, "level": level}, bound)
+        for counter, each in ((1, 4), (2, 4), (3, BLOCK)):
+            program.run(Counted(bound[COUNTERS], counter, each), {**uniforms, "level": IN_BLOCKS + counter}, bound)
         left = Counted(bound[COUNTERS], 4)
         if self._again and self._device.lanes(left) != 0:
             self._making.begin((RARE,), 1, (RARE,) if self._hurry else ())

@@ -6,7 +6,8 @@ beam strides from the near end; once its step comes down to about its own width 
 there. A tile whose beam reaches the far end has no hit at all.
 
 A beam of one pixel finds what a ray through the pixel's middle cannot: parts of the surface thinner than a pixel, down
-to Steiner's axes, which have no thickness at all (SN10 figure 6, K09 figure 6).
+to Steiner's axes, which have no thickness at all (SN10 figure 6, K09 figure 6). There a step that cannot be excluded
+is not yet the end: beside an ordinary silhouette it is passed over.
 """
 
 from __future__ import annotations
@@ -20,15 +21,6 @@ from zeroset.kernel import BOOL, U32, Value, constant, for_, if_, while_
 from zeroset.solve.field import Lowered
 from zeroset.solve.shape import Body
 from zeroset.solve.subject import LoweredBody, Subject
-
-
-class Beam(NamedTuple):
-    """Where a tile's rays may start: t, a first step, and whether nothing is hit at all."""
-
-    start: Value
-    step: Value
-    empty: Value
-    steps: Value
 
 
 class Patch(NamedTuple):
@@ -84,56 +76,36 @@ class Patch(NamedTuple):
         return body.excludes(self.system, point) | self.outside(body.body, point)
 
 
-def trace_beam(patch: Patch, near: Value, far: Value, finest: Value) -> Beam:
-    """Stride along one beam until a step of ``finest`` cannot be excluded.
-
-    Args:
-        patch: the beam's rays.
-        near: start of the search, at or before each ray's own.
-        far: its end.
-        finest: the shortest step worth trying.
-    """
-
-    def running(a: Value, h: Value, done: Value, steps: Value) -> Value:
-        return ~done & (a < far)
-
-    def turn(a: Value, h: Value, done: Value, steps: Value) -> tuple[Value, ...]:
-        b = a + h
-        excluded = patch.excludes(patch.over(a, b)[0])
-        stop = ~excluded & (h <= finest)
-        return excluded.select(b, a), excluded.select(h * 2.0, stop.select(h, h * 0.5)), stop, steps + 1
-
-    step = ((far - near) * 0.25).maximum(finest)
-    a, h, done, steps = while_(running, turn, near, step, constant(False, BOOL), constant(0, U32))
-    return Beam(a, h, ~done, steps)
-
-
 PATIENCE = 200
-"""Evaluations that the search for a thin part may cost a pixel."""
+"""Evaluations that a beam may cost."""
 EARLY = 64.0
 """Finest steps from which on a stretch is asked whether the surface there is an ordinary one."""
 
 
-class Thin(NamedTuple):
-    """What a search for a thin part has found.
+class Beam(NamedTuple):
+    """Where a beam has ended.
 
     Attributes:
-        found: whether a pixel may hold one.
-        t: where.
+        found: whether there may be something, and not only the far end.
+        start: all before is clear.
+        step: the last step that was tried from there.
+        t: where what there may be is.
         steps: the evaluations spent.
     """
 
     found: Value
+    start: Value
+    step: Value
     t: Value
     steps: Value
 
 
-def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value, unsure: Value) -> Thin:
-    """Look along a pixel's beam for a part of the surface that is thinner than the pixel.
+def trace_beam(patch: Patch, near: Value, far: Value, step: Value, finest: Value, aiming: Value, unsure: Value) -> Beam:
+    """Stride along a beam until a step of ``finest`` cannot be excluded, or holds a thin part.
 
-    Where a step cannot be excluded, the derivatives of f across the pixel decide: near an ordinary silhouette one of
-    them keeps its sign, mostly over a long stretch, and the pixel is left to its ray there; where both may vanish, down
-    to a step of ``finest``, f has an extremum near zero inside the pixel, which is what a thin part is.
+    Who aims stops there. Who looks for thin parts asks the derivatives of f across the patch: near an ordinary
+    silhouette one of them keeps its sign, mostly over a long stretch, and the patch is left to its rays there; where
+    both may vanish, down to a step of ``finest``, f has an extremum near zero inside, which is what a thin part is.
 
     Args:
         patch: the beam's rays.
@@ -141,6 +113,7 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value,
         far: its end.
         step: its first step.
         finest: the shortest step worth trying.
+        aiming: whether the beam is to say where rays may start.
         unsure: lanes that have found something when their patience ends, wherever they are.
     """
 
@@ -151,18 +124,18 @@ def find_thin(patch: Patch, near: Value, far: Value, step: Value, finest: Value,
         b = a + h
         point, t = patch.over(a, b)
         excluded = patch.excludes(point)
-        asked = ~excluded & (h <= finest * EARLY)
+        asked = ~excluded & ~aiming & (h <= finest * EARLY)
         (flat,) = if_(asked, lambda: (_flat_across(patch, point, t),), lambda: (True,))
         passed = excluded | ~flat
-        thin = ~passed & (h <= finest)
-        return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), thin, count + 1
+        end = ~passed & (h <= finest)
+        return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), end, count + 1
 
     a, h, found, count = while_(running, turn, near, step.maximum(finest), constant(False, BOOL), constant(0, U32))
     ended = unsure & (a < far) & (count >= PATIENCE)
-    return Thin(found | ended, ended.select(a, a + h * 0.5), count)
+    return Beam(found | ended, a, h, ended.select(a, a + h * 0.5), count)
 
 
-def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Thin:
+def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Value) -> Beam:
     """Look along a narrow beam for whatever cannot be excluded by all means, down to a step of ``finest``."""
 
     def running(a: Value, h: Value, found: Value, count: Value) -> Value:
@@ -175,7 +148,7 @@ def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Va
         return excluded.select(b, a), excluded.select(h * 2.0, (h * 0.5).maximum(finest)), left, count + 1
 
     a, h, found, count = while_(running, turn, near, step.maximum(finest), constant(False, BOOL), constant(0, U32))
-    return Thin(found, a + h * 0.5, count)
+    return Beam(found, a, h, a + h * 0.5, count)
 
 
 def _flat_across(patch: Patch, point: Sequence[Any], t: Any) -> Value:

@@ -133,9 +133,9 @@ def test_passes_of_a_frame(capsys: pytest.CaptureFixture[str]) -> None:
     assert head[:4] == ["surface", "size", "beams", "primary"]
     assert head[-3:] == ["shade", "between", "frame"]
     cells = dict(zip(head, row, strict=True))
-    # Its runs: blocks, quarters of them, pixels, parts.
-    assert cells["thin"].count("+") == 3
-    assert all(float(cells[name]) >= 0 for name in ("beams", "primary", "shade", "frame"))
+    # Its runs: tiles, blocks of pixels, quarters of them, pixels, parts.
+    assert cells["beams"].count("+") == 4
+    assert all(float(cells[name]) >= 0 for name in ("primary", "shade", "frame"))
 
 
 def test_papers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -21,7 +21,7 @@ def test_the_short_form_fits_a_screen(zeroset: Run) -> None:
     assert "polynomial of degree 2" in ran.out
     assert "a = 2" in ran.out
     assert "%4 = mul %2, %3" in ran.out
-    for kernel in ("beams", "primary", "second", "thin", "parts", "shade"):
+    for kernel in ("beams", "primary", "second", "parts", "shade"):
         assert f"\n  {kernel}" in ran.out
     assert len(ran.out.splitlines()) < 40
 

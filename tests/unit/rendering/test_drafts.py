@@ -32,10 +32,6 @@ def drawn(device: Any, **options: Any) -> zs.Image:
     return zs.render(zs.gallery["tangle"], 96, device=device, **options)
 
 
-def differing(one: zs.Image, other: zs.Image) -> int:
-    return int(np.count_nonzero(one.aov("status") != other.aov("status")))
-
-
 def test_a_draft_leaves_out_what_few_pixels_need() -> None:
     steiner = zs.gallery["steiner"]
     draft, whole = (zs.render(steiner, 256, draft=draft, device="cpu") for draft in (True, False))
@@ -44,23 +40,24 @@ def test_a_draft_leaves_out_what_few_pixels_need() -> None:
     assert np.all(whole.aov("status")[missing] == zs.UNRESOLVED)
 
 
-@needs_gpu
-def test_a_gpus_first_draft_does_without_beams_and_shows_the_same() -> None:
-    device = Noting("gpu")
+@pytest.mark.parametrize("where", ["cpu", pytest.param("gpu", marks=needs_gpu)])
+def test_a_first_draft_does_without_beams_and_shows_the_same(where: str) -> None:
+    device = Noting(where)
     first = drawn(device, draft=True)
     assert first.hits > 1000
     assert device.asked == {"first", "shade"}
     settle()
     assert device.asked >= {"beams", "first", "shade"}
     aimed = drawn(device, draft=True)
-    assert differing(first, aimed) == 0
+    # What f32 leaves unresolved hangs on where rays start; what is seen does not.
+    assert np.array_equal(first.aov("status") == zs.MISS, aimed.aov("status") == zs.MISS)
     assert np.allclose(first.aov("depth"), aimed.aov("depth"), atol=2e-3)
     # Beams are of use: rays start near what they meet.
     assert aimed.aov("steps").sum() < first.aov("steps").sum()
 
 
-@pytest.mark.parametrize("options", [{}, {"draft": True}])
-def test_all_other_pictures_have_beams(options: dict[str, Any]) -> None:
-    device = Noting("cpu")
-    drawn(device, **options)
-    assert "beams" in device.asked
+def test_whole_pictures_and_sums_have_beams() -> None:
+    for surface, options in (("torus", {}), ("blinn-blobby", {"draft": True})):
+        device = Noting("cpu")
+        zs.render(zs.gallery[surface], 64, device=device, **options)  # type: ignore[arg-type]
+        assert "beams" in device.asked

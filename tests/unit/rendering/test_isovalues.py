@@ -122,7 +122,7 @@ def test_methods_that_cannot_say_which_can(method: str) -> None:
 def test_kernels_of_a_plain_surface_know_nothing_of_parts() -> None:
     plain = SHELLS.with_isovalues(None)
     tracer = Tracer(plain, resolve_method("auto"), get_device("interp"), pixels=True)
-    for name in ("first", "beams", "thin", "parts", "second"):
+    for name in ("first", "beams", "parts", "second"):
         kernel = tracer.kernel(name)
         assert not {b.name for b in kernel.buffers} & {"part", "materials"}
         assert not any("isovalue" in u.name or u.name.startswith(("s0_", "p_s0_")) for u in kernel.uniforms)

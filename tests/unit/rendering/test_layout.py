@@ -6,24 +6,22 @@ import numpy as np
 import pytest
 
 from zeroset.kernel import F32, U32, KernelBuilder, if_, interp, store
-from zeroset.rendering.layout import TILE, Beside, Layout, pixel_coordinates, pixel_place, tile_coordinates, tile_of
+from zeroset.rendering.layout import TILE, Beside, Layout, pixel_coordinates, pixel_place
 
 SIZES = [(1, 1), (7, 5), (8, 8), (9, 8), (513, 31), (64, 48)]
 
 
 def places(layout: Layout) -> dict[str, np.ndarray]:  # type: ignore[type-arg]
-    """Column, row, u and v of every lane, and u and v of the middle of its tile, as the kernels see them."""
+    """Column, row, u and v of every lane, as the kernels see them."""
     with KernelBuilder("layout") as builder:
         lane = builder.index()
         column, row = pixel_place(builder, lane)
         for name, whole in (("column", column), ("row", row)):
             store(builder.buffer(name, U32, writable=True), lane, whole)
-        middles = tile_coordinates(builder, tile_of(lane))
-        values = (*pixel_coordinates(builder, lane), *middles)
-        for name, value in zip(("u", "v", "tile_u", "tile_v"), values, strict=True):
+        for name, value in zip("uv", pixel_coordinates(builder, lane), strict=True):
             store(builder.buffer(name, F32, writable=True), lane, value)
     buffers = {name: np.zeros(layout.lanes, np.uint32) for name in ("column", "row")}
-    buffers |= {name: np.zeros(layout.lanes, np.float32) for name in ("u", "v", "tile_u", "tile_v")}
+    buffers |= {name: np.zeros(layout.lanes, np.float32) for name in "uv"}
     interp.run(builder.kernel, layout.lanes, layout.uniforms(), buffers)
     return buffers
 
@@ -57,15 +55,6 @@ def test_frame_coordinates_run_from_edge_to_edge(size: tuple[int, int]) -> None:
     longer = max(width, height)
     assert np.allclose(u[0], (2 * (np.arange(width) + 0.5) - width) / longer, atol=1e-6)
     assert np.allclose(v[:, 0], -(2 * (np.arange(height) + 0.5) - height) / longer, atol=1e-6)
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_a_tile_holds_its_pixels(size: tuple[int, int]) -> None:
-    layout = Layout(*size)
-    found = places(layout)
-    half = layout.uniforms()["pixel"] * 0.5 * TILE
-    assert np.all(np.abs(found["u"] - found["tile_u"]) <= half)
-    assert np.all(np.abs(found["v"] - found["tile_v"]) <= half)
 
 
 def beside(layout: Layout) -> dict[tuple[bool, bool], tuple[np.ndarray, np.ndarray]]:  # type: ignore[type-arg]

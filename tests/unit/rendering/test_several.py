@@ -69,7 +69,7 @@ def test_one_surface_pays_for_nothing() -> None:
     assert scene.surface is BALL
     listed = Tracer(scene.surface, method, device, pixels=True, shadows=True)
     wrapped = Tracer(Several((BALL,)), method, device, pixels=True, shadows=True)
-    for name in ("beams", "first", "second", "thin", "parts", "shadow"):
+    for name in ("beams", "first", "second", "parts", "shadow"):
         digest = alone.kernel(name).digest
         assert listed.kernel(name).digest == digest
         assert wrapped.kernel(name).digest == digest

@@ -88,7 +88,7 @@ def test_what_has_nothing_thin_needs_no_program_for_it(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(device, "compile_cached", note)
     zs.render(zs.surface("x^2 + y^2 + 1.5z^2 = 1.01", bounds=1.5), 64, device=device)
-    assert "thin" in made
+    assert "beams" in made
     assert "parts" not in made
     zs.render(zs.surface("1.01x^2 + y^2 = 0", bounds=1.5), 64, device=device)
     assert "parts" in made

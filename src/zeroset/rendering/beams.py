@@ -1,10 +1,12 @@
-"""Thin parts: what of the surface lies between the rays because it is thinner than a pixel.
+"""Beams: of tiles, which say where rays start, and of ever smaller cells, which find what lies between the rays.
 
-Down to lines and points without any thickness, such as Steiner's axes (SN10 figure 6, K09 figure 6). The same kernel
-runs four times, each time on what the time before could not rule out (``cells``): on blocks of 4x4 pixels of which a
-ray missed, on the quarters of those blocks, on their pixels, and on 4x4 parts of those pixels, whose enclosures are
-sharp. A pixel with a part left is drawn, as UNRESOLVED; where the device has f64, ``parts`` looks at the parts once
-more before.
+That is thin parts, down to lines and points without any thickness, such as Steiner's axes (SN10 figure 6, K09 figure
+6). The kernel runs once before the rays, on tiles, and four times after them, each time on what the time before could
+not rule out (``cells``): on blocks of 4x4 pixels of which a ray missed, on the quarters of those blocks, on their
+pixels, and on 4x4 parts of those pixels, whose enclosures are sharp. A pixel with a part left is drawn, as UNRESOLVED;
+where the device has f64, ``parts`` looks at the parts once more before.
+
+It is one kernel because most of it is f over a beam, whose code takes long to compile.
 """
 
 from __future__ import annotations
@@ -15,13 +17,25 @@ from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import AffineSystem
 from zeroset.kernel import F32, U32, Buffer, Kernel, KernelBuilder, Value, atomic, constant, if_, lift, store
-from zeroset.rendering.buffers import COUNTERS, FIELDS, PARTS, THIN, THIN_PIXEL, Ends
-from zeroset.rendering.cells import HALF, IN_BLOCKS, IN_PARTS, IN_PIXELS, IN_QUARTERS, Cells, place_of
+from zeroset.rendering.buffers import (
+    COUNTERS,
+    FIELDS,
+    IN_BLOCKS,
+    IN_PARTS,
+    IN_PIXELS,
+    IN_QUARTERS,
+    IN_TILES,
+    PARTS,
+    THIN,
+    THIN_PIXEL,
+    Ends,
+)
+from zeroset.rendering.cells import HALF, Cells, place_of
 from zeroset.rendering.gbuffer import write
 from zeroset.rendering.layout import pixel_coordinates
 from zeroset.rendering.primary import EMPTY_TILE, camera_ray, t_range
 from zeroset.rendering.view import frame_patch
-from zeroset.solve.beam import Thin, find_thin
+from zeroset.solve.beam import Beam, trace_beam
 from zeroset.solve.field import Ray
 from zeroset.solve.problem import Answer
 from zeroset.solve.shape import Shape
@@ -29,7 +43,7 @@ from zeroset.solve.status import UNRESOLVED
 from zeroset.solve.subject import Subject
 
 
-def thin_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False) -> Kernel:
+def beam_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False) -> Kernel:
     """One run; the uniform ``level`` says on what.
 
     Args:
@@ -38,7 +52,7 @@ def thin_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False
         ends: whether what lies around a find is kept, for rays that go on.
         again: whether parts that are left are to be looked at again; else they are drawn.
     """
-    with KernelBuilder("thin") as builder:
+    with KernelBuilder("beams") as builder:
         cells = Cells(builder)
         subject = Subject(shape, builder, offset=offset)
         pixel = builder.uniform("pixel", F32)
@@ -48,8 +62,9 @@ def thin_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False
         patch = frame_patch(builder, subject, across.fma(pixel, u), (-down).fma(pixel, v), half)
         start, step = cells.start()
         near = cells.wanted().select(start, EMPTY_TILE)
-        thin = find_thin(patch, near, t_range(builder)[1], step, cells.finest(), unsure=cells.level < IN_PIXELS)
-        keep = _Keeping(builder, subject, cells, thin)
+        aiming, far = cells.level.eq(IN_TILES), t_range(builder)[1]
+        beam = trace_beam(patch, near, far, step, cells.finest(), aiming, unsure=cells.level < IN_PIXELS)
+        keep = _Keeping(builder, subject, cells, beam)
 
         def found() -> None:
             if_(cells.level.eq(IN_BLOCKS), lambda: keep.cell("block"))
@@ -57,7 +72,8 @@ def thin_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False
             if_(cells.level.eq(IN_PIXELS), lambda: keep.pixel(again))
             if_(cells.level.eq(IN_PARTS), keep.part if again else (lambda: keep.draw(ends)))
 
-        if_(thin.found, found)
+        if_(aiming, keep.tile)
+        if_(beam.found & ~aiming, found)
     return builder.kernel
 
 
@@ -67,22 +83,28 @@ class _Keeping(NamedTuple):
     builder: KernelBuilder
     subject: Subject
     cells: Cells
-    thin: Thin
+    beam: Beam
 
     def _append(self, counter: int, name: str, what: Value) -> Value:
         slot = atomic("add", self.builder.buffer(COUNTERS, U32, writable=True), counter, 1)
         store(self.builder.buffer(name, U32, writable=True), slot, what)
         return slot
 
+    def tile(self) -> None:
+        """Where a tile's rays start, and with what step."""
+        tile, (start, step) = self.builder.index(), self.cells.tiles
+        store(start, tile, self.beam.found.select(self.beam.start, EMPTY_TILE))
+        store(step, tile, self.beam.step)
+
     def cell(self, kind: str) -> None:
         """A block, or a quarter of one, by its first pixel."""
         slot = self._append(THIN[kind].counter, THIN[kind].lanes, self.cells.lane)
-        store(self.builder.buffer(THIN[kind].reach, F32, writable=True), slot, self.thin.t)
+        store(self.builder.buffer(THIN[kind].reach, F32, writable=True), slot, self.beam.t)
 
     def pixel(self, again: bool) -> None:
         slot = self._append(3, THIN_PIXEL, self.cells.lane)
         # Where a ray misses nobody reads t; here it tells the parts where to look, and where to draw.
-        store(self.builder.buffer("t", FIELDS["t"], writable=True), self.cells.lane, self.thin.t)
+        store(self.builder.buffer("t", FIELDS["t"], writable=True), self.cells.lane, self.beam.t)
         if again:
             store(self._parts(), slot, 0)
 
