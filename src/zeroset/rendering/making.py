@@ -69,6 +69,16 @@ class Making:
         self._better |= side_by_side({name: partial(self._made, name, False) for name in sorted(self._quick)}, 1)
         self._quick.clear()
 
+    def best(self, name: str) -> Program:
+        """A program made well; waits for it, or makes it here, where it has only been made in a hurry."""
+        if name in self._quick:
+            self._quick.discard(name)
+            self._programs[name] = self._made(name, False)
+        better = self._better.pop(name, None)
+        if better is not None:
+            self._programs[name] = better.result()
+        return self.get(name)
+
     def pending(self, name: str) -> bool:
         """Whether a program is being made and not there yet."""
         coming = self._coming.get(name)

@@ -305,11 +305,15 @@ class Tracer:
         """Draw what lies between the rays: by blocks, quarters of those, pixels, and parts of those, last in f64."""
         if not self.beams:
             return
-        program = self.program(AIM)
-        program.run(tiles * TILE * TILE // BLOCK, {**uniforms, "level": IN_BLOCKS}, bound)
+        program, blocks = self.program(AIM), tiles * TILE * TILE // BLOCK
+        program.run(blocks, {**uniforms, "level": IN_BLOCKS}, bound)
         # What one run puts on a list, the next looks at in pieces.
         for counter, each in ((1, 4), (2, 4), (3, BLOCK)):
-            program.run(Counted(bound[COUNTERS], counter, each), {**uniforms, "level": IN_BLOCKS + counter}, bound)
+            cells = Counted(bound[COUNTERS], counter, each)
+            if counter == 1 and (self._device.lanes(cells) or 0) > blocks:
+                # A block in four is open: terms cancel, and to look closer takes longer than to make it faster.
+                program = self._making.best(AIM)
+            program.run(cells, {**uniforms, "level": IN_BLOCKS + counter}, bound)
         left = Counted(bound[COUNTERS], 4)
         if self._again and self._device.lanes(left) != 0:
             self._making.begin((RARE,), 1, (RARE,) if self._hurry else ())

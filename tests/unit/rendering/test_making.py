@@ -92,6 +92,20 @@ def test_the_good_program_takes_the_quick_ones_place(device: Recording) -> None:
     assert device.asked == asked
 
 
+@pytest.mark.parametrize("improving", [False, True])
+def test_who_needs_the_good_program_waits_for_it(device: Recording, improving: bool) -> None:
+    made = making(device, "a", "b")
+    made.begin(["a", "b"], 2, quick=["a"])
+    quick = made.get("a")
+    if improving:
+        made.improve()
+    good = made.best("a")
+    assert good is not quick
+    assert made.get("a") is made.best("a") is good
+    assert made.best("b") is made.get("b")
+    assert sorted(device.asked) == [("key of a", False), ("key of a", True), ("key of b", False)]
+
+
 def test_an_error_comes_to_who_asks(device: Recording) -> None:
     made = Making(device)
 

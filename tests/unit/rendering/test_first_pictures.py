@@ -1,4 +1,4 @@
-"""Drafts: what they leave out, and which programs the first of them waits for."""
+"""First pictures: what drafts leave out, and which programs are waited for, made in a hurry, or made well."""
 
 from __future__ import annotations
 
@@ -22,9 +22,12 @@ class Noting(Meter):
     def __init__(self, name: str) -> None:
         super().__init__(get_device(name))
         self.asked: set[str] = set()
+        self.well: set[str] = set()
 
     def compile_cached(self, key: str, build: Callable[[], Kernel], quick: bool = False) -> Program:
         self.asked.add(key.split()[0])
+        if not quick:
+            self.well.add(key.split()[0])
         return super().compile_cached(key, build, quick)
 
 
@@ -61,3 +64,10 @@ def test_whole_pictures_and_sums_have_beams() -> None:
         device = Noting("cpu")
         zs.render(zs.gallery[surface], 64, device=device, **options)  # type: ignore[arg-type]
         assert "beams" in device.asked
+
+
+@pytest.mark.parametrize(("surface", "well"), [("tangle", False), ("sarti-dodecic", True)])
+def test_beams_with_much_to_do_are_made_well_before_they_do_it(surface: str, well: bool) -> None:
+    device = Noting("cpu")
+    zs.render(zs.gallery[surface], 64, device=device)
+    assert ("beams" in device.well) == well
