@@ -34,27 +34,15 @@ from zeroset.rendering.buffers import (
 from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.layout import TILE
 from zeroset.rendering.making import Making
+from zeroset.rendering.passes import AIM, APART, DRAFT, ORDER, QUICK, RARE, Passes
 from zeroset.rendering.values import Arrays
 from zeroset.runtime import Counted, Device, Program
 from zeroset.scene.several import Drawable
 from zeroset.solve.method import Method
-from zeroset.solve.shape import Shape
 
 Buffers = Mapping[str, Any]
-AIM = "beams"
-"""The pass that only spares the others work: the first draft of a surface does not wait for its program."""
 STEPS = 8
 """Steps that a ray without a beam begins with."""
-DRAFT = (AIM, "first", "shadow")
-"""The passes of a draft, which leaves out second looks and thin parts."""
-ORDER = (*DRAFT, "second")
-"""Passes in the order in which their programs are made."""
-RARE = "parts"
-"""The pass that many pictures need nothing of: its program is made when a pixel asks, or after the first picture."""
-APART = (AIM, RARE)
-"""Passes whose programs another process makes, where there is one: about half of the work."""
-QUICK = (AIM, "second", RARE)
-"""Passes that take little of a small picture's time; their programs are made in a hurry for the first one."""
 AT_ONCE = 5
 """Programs that are made side by side: compilers are to be kept at work while other kernels are being traced."""
 
@@ -87,75 +75,19 @@ class Tracer:
         shadows: bool = False,
         ends: Ends = (),
     ) -> None:
-        self._layered = layered
-        self._shadows = shadows
-        self._ends = ends
-        self._method = method
+        whole = as_drawn(surface)
+        self._passes = Passes(whole.shape, method, pixels, layered, shadows, ends, device.supports(F64))
         self._device = device
         self.certified = method.certified
-        self.beams = pixels and method.certified and not layered
-        self.exact = method.certified and device.supports(F64)
-        self._again = self.exact and self.beams
+        self.beams, self.exact = self._passes.beams, self._passes.exact
         self._arrays = Arrays(device)
-        whole = as_drawn(surface)
-        shape, self._sums = whole.shape, whole.arrays
-        self._parts = shape.parts
-        self._key = f"{shape.digest} {method.structure()} {pixels} {layered} {self.exact} {' '.join(ends)}"
+        self._sums = whole.arrays
         self._shared: list[str] = []
         self._making = Making(device)
         self._drawn = False
         self._hurry = False
-        for name, build in self._kernels(shape, pixels).items():
-            self._making.add(name, f"{name} {self._key}", build)
-
-    def _kernels(self, shape: Shape, pixels: bool) -> dict[str, Callable[[], Kernel]]:
-        method = self._method
-        offset, ends = method.offset != 0.0, self._ends
-
-        # Imported where they are traced: a picture whose kernels come from the cache loads no number system at all.
-        def first() -> Kernel:
-            if self._layered:
-                from zeroset.rendering.layers import layer_kernel
-
-                return layer_kernel(shape, method, pixels, self.exact)
-            from zeroset.rendering.primary import trace_kernel
-
-            return trace_kernel(shape, method, pixels, self.beams, self.exact, ends)
-
-        def second() -> Kernel:
-            if self._layered:
-                from zeroset.rendering.layers import second_layer_kernel
-
-                return second_layer_kernel(shape, offset, pixels)
-            from zeroset.rendering.primary import second_kernel
-
-            return second_kernel(shape, offset, pixels, ends, self.beams)
-
-        def beams() -> Kernel:
-            from zeroset.rendering.beams import beam_kernel
-
-            return beam_kernel(shape, offset, ends, self._again)
-
-        def parts() -> Kernel:
-            from zeroset.rendering.parts import parts_kernel
-
-            return parts_kernel(shape, offset, ends)
-
-        def shadow() -> Kernel:
-            from zeroset.rendering.shadow import shadow_kernel
-
-            return shadow_kernel(shape, offset)
-
-        made: dict[str, Callable[[], Kernel]] = {"first": first}
-        if self._shadows:
-            made["shadow"] = shadow
-        if self.exact:
-            made["second"] = second
-        if self.beams:
-            made[AIM] = beams
-        if self._again:
-            made[RARE] = parts
-        return made
+        for name, build in self._passes.kernels().items():
+            self._making.add(name, f"{name} {self._passes.key}", build)
 
     def kernel(self, name: str) -> Kernel:
         """The kernel of one pass as it is traced, for those who want to look at it."""
@@ -184,7 +116,7 @@ class Tracer:
         # Of what a whole picture needs, second looks come last.
         before = passes if draft else passes[:-1]
         wanted = [*before, *self._shared, *passes[len(before) :]]
-        more = [RARE] if self._again and not draft else []
+        more = [RARE] if self._passes.again and not draft else []
         if self._device.name == "gpu":
             # A GPU cannot say without being waited for whether a list is empty, so that it needs every program.
             # A draft: the driver compiles the first shader while the second is traced, one tracing at a time.
@@ -203,15 +135,15 @@ class Tracer:
 
     def outputs(self, rays: int) -> dict[str, Any]:
         """Fresh buffers for what is found along so many rays."""
-        return {name: self._device.allocate(type_, rays) for name, type_ in fields(self._parts).items()}
+        return {name: self._device.allocate(type_, rays) for name, type_ in fields(self._passes.shape.parts).items()}
 
     def buffers(self, rays: int, tiles: int) -> dict[str, Any]:
         """Fresh buffers for so many rays and tiles, those of the outputs included where there is one layer."""
-        wanted = ({} if self._layered else fields(self._parts)) | (SECOND if self.exact else {})
+        wanted = ({} if self._passes.layered else fields(self._passes.shape.parts)) | (SECOND if self.exact else {})
         made = {name: self._device.allocate(type_, rays) for name, type_ in wanted.items()}
         made[COUNTERS] = self._device.allocate(U32, LISTS)
-        made |= {name: self._device.allocate(F32, rays) for name in self._ends}
-        if self._shadows:
+        made |= {name: self._device.allocate(F32, rays) for name in self._passes.ends}
+        if self._passes.shadows:
             made[LIT] = self._device.allocate(U32, rays)
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
@@ -219,7 +151,7 @@ class Tracer:
             for cells, pixels in ((THIN["block"], BLOCK), (THIN["quarter"], BLOCK // 4)):
                 made[cells.lanes] = self._device.allocate(U32, rays // pixels)
                 made[cells.reach] = self._device.allocate(F32, rays // pixels)
-            listed = {THIN_PIXEL: U32} | (PARTS if self._again else {})
+            listed = {THIN_PIXEL: U32} | (PARTS if self._passes.again else {})
             made |= {name: self._device.allocate(type_, rays) for name, type_ in listed.items()}
         return made
 
@@ -292,7 +224,7 @@ class Tracer:
 
     def in_doubles(self, drawn: Drawn) -> tuple[dict[str, float], dict[str, Any]]:
         """The numbers that a pass in f64 reads beside a frame's, and the arrays."""
-        return drawn.parameters(self._method, F64), drawn.bind(self._arrays, F64) if drawn.arrays else {}
+        return drawn.parameters(self._passes.method, F64), drawn.bind(self._arrays, F64) if drawn.arrays else {}
 
     def shadows(self, lights: Iterable[Mapping[str, float]], uniforms: Mapping[str, float], bound: Buffers) -> None:
         """See which lights reach what was found."""
@@ -315,6 +247,6 @@ class Tracer:
                 program = self._making.best(AIM)
             program.run(cells, {**uniforms, "level": IN_BLOCKS + counter}, bound)
         left = Counted(bound[COUNTERS], 4)
-        if self._again and self._device.lanes(left) != 0:
+        if self._passes.again and self._device.lanes(left) != 0:
             self._making.begin((RARE,), 1, (RARE,) if self._hurry else ())
             self._in_doubles(RARE, left, drawn, uniforms, bound)
