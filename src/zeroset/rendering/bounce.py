@@ -84,8 +84,8 @@ class Bounces:
 
             return edge_kernel(tracer.beams, several)
 
-        # Layers are counted: what is only rounding must not be one.
-        self.exact = optics.through and tracer.exact
+        # Layers are counted: what is only rounding must not be one. Mirrored rays are as certain as the camera's.
+        self.exact = (optics.through or optics.mirror) and tracer.exact
         own = f"{shape.digest} {offset} {optics} {self.exact}{'' if tint is None else f' {tint.digest}'}"
         self._path, self._sample = f"path {own}", f"sample {own} {tracer.beams}"
         self._edges = shader or f"edges {tracer.beams} {several}"
