@@ -75,7 +75,7 @@ def cast(
         device: where to run.
         tolerance: world length to which roots are found; None takes 2^-14 of the bounds' extent.
         max_hits: how many hits a ray may have, in order along it; None gives the first one alone. Roots closer to each
-            other than the tolerance are one hit.
+            other than the tolerance, or than 2^-22 of t, are one hit.
 
     Returns:
         The hits; with ``max_hits`` each array has a second axis of that length, filled up with misses.

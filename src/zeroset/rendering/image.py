@@ -198,7 +198,10 @@ class Image:
             OutputError: the suffix names no picture format, or the file cannot be written.
             ZerosetError: there is to be a legend, but the surface is not coloured by anything.
         """
-        target = Path(path)
+        try:
+            target = Path(path)
+        except TypeError:
+            raise OutputError(f"a picture's file must be a path, not {path!r}") from None
         data = encode(self.legend() if legend else self.pixels, picture_format(target))
         with replacing(target) as file:
             file.write(data)

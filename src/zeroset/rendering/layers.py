@@ -14,6 +14,7 @@ from zeroset.rendering.buffers import FORMER, FROM, NOTHING, ONWARD, SECOND
 from zeroset.rendering.gbuffer import ask_second_look, behind, write
 from zeroset.rendering.primary import (
     EMPTY_TILE,
+    as_fine_as_asked,
     camera_ray,
     exact_ray,
     given_ray,
@@ -32,6 +33,8 @@ DONE = EMPTY_TILE
 """Where the search goes on along a ray that has nothing more on it: beyond every bounds."""
 TOUCHING = 4.0
 """Tolerances between two unresolved places that are one."""
+PAST = 2.0**-6
+"""Tolerances behind a find that belong to it: where t is near 0 rounding alone does not get away from a root."""
 MOST_MERGED = 256
 """Unresolved intervals that are passed over before a new place is counted all the same."""
 
@@ -48,6 +51,8 @@ def layer_kernel(shape: Shape, method: Method, pixels: bool, second: bool) -> Ke
         # Where f64 cannot tell whether what touches a hit is a second one, it stays unresolved.
         former = None if second else load(builder.buffer(FORMER, U32), lane)
         answer, merged, begin = beyond(search, start, former)
+        if method.certified:
+            answer = as_fine_as_asked(builder, ray, answer)
         write(builder, subject, lane, ray, answer)
         _go_on(builder, lane, answer)
         if second:
@@ -116,8 +121,10 @@ def beyond(search: _Search, start: Value, former: Value | None = None) -> tuple[
     begin = problem.t0
     for other in others:
         begin = begin.minimum(other.t0)
-    before = start.convert(problem.type) > NOTHING * 0.5 if former is None else former.eq(UNRESOLVED)
-    reach = problem.tolerance * TOUCHING
+    later = start.convert(problem.type) > NOTHING * 0.5
+    before = later if former is None else former.eq(UNRESOLVED)
+    reach, past = problem.tolerance * TOUCHING, problem.tolerance * PAST
+    begin = later.select(begin + past, begin)
     none, zero = constant(0, U32), problem.number(0.0)
 
     def looking(again: Value, *state: Value) -> Value:
@@ -126,10 +133,21 @@ def beyond(search: _Search, start: Value, former: Value | None = None) -> tuple[
     def look(again: Value, count: Value, at: Value, *found: Value) -> tuple[Value, ...]:
         answer = search.after(at)
         touches = before & answer.status.eq(UNRESOLVED) & (answer.clear - at <= reach)
-        more = touches & (count < MOST_MERGED) & (answer.end > at)
+        more = touches & (count < MOST_MERGED)
         spent = found[2] + answer.steps
         mark = () if answer.mark is None else (answer.mark,)
-        return more, count + 1, answer.end, answer.t, answer.status, spent, answer.clear, answer.side, answer.end, *mark
+        return (
+            more,
+            count + 1,
+            answer.end.maximum(at + past),
+            answer.t,
+            answer.status,
+            spent,
+            answer.clear,
+            answer.side,
+            answer.end,
+            *mark,
+        )
 
     found = (begin, constant(MISS, U32), none, begin, zero, begin, *([] if search.subject.shape.plain else [none]))
     state = while_(looking, look, constant(True, BOOL), none, begin, *found)

@@ -7,7 +7,7 @@ where the first search had proven it clear. It goes to the few rays on the list 
 
 from __future__ import annotations
 
-from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, if_, load
+from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, constant, if_, load
 from zeroset.rendering.buffers import SECOND, Ends
 from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write, write_ends
 from zeroset.rendering.layout import pixel_coordinates, tile_of
@@ -18,13 +18,17 @@ from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
 from zeroset.solve.shape import Shape
-from zeroset.solve.status import HIT, MISS
+from zeroset.solve.status import HIT, MISS, UNRESOLVED
 from zeroset.solve.subject import LoweredBody, Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
 FINER = 2.0**-12
 """Tolerance of a second look as a part of the first one's."""
+RESOLUTION = 2.0**-20
+"""The shortest step that moves along a ray in f32, as a part of t."""
+COARSE = 4.0
+"""Tolerances that a find may be off by."""
 EMPTY_TILE = 1e30
 """Start of the rays of a tile that its beam has shown to be empty: beyond every bounds."""
 
@@ -45,13 +49,24 @@ def problem_on(body: LoweredBody, ray: Ray, near: Value, far: Value, step: Value
     builder = body.builder
     t0, t1 = clip(builder, body.body.kind, ray.origin, ray.direction, body.body.prefix)
     t0, t1 = t0.maximum(near), t1.minimum(far)
-    d = ray.direction
-    length = d[0].fma(d[0], d[1].fma(d[1], d[2] * d[2])).sqrt()
     # A tolerance below t's own resolution would ask for steps that do not move.
-    resolution = abs(t0).maximum(abs(t1)) * 2.0**-20
-    tolerance = (builder.uniform("tolerance", F32) / length).maximum(resolution)
+    resolution = abs(t0).maximum(abs(t1)) * RESOLUTION
+    tolerance = _asked(builder, ray).maximum(resolution)
     step = (t1 - t0) * 0.125 if step is None else step
     return Problem(body.first, ray, t0, t1, tolerance, step, None if body.body.plain else body)
+
+
+def _asked(builder: KernelBuilder, ray: Ray) -> Value:
+    """The tolerance in units of the ray's t."""
+    d = ray.direction
+    return builder.uniform("tolerance", F32) / d[0].fma(d[0], d[1].fma(d[1], d[2] * d[2])).sqrt()
+
+
+def as_fine_as_asked(builder: KernelBuilder, ray: Ray, answer: Answer) -> Answer:
+    """The answer of a search in f32, with what lies so far away that f32 cannot keep the tolerance as unresolved."""
+    coarse = abs(answer.t) * RESOLUTION > _asked(builder, ray) * COARSE
+    rough = coarse & answer.status.eq(HIT)
+    return answer._replace(status=rough.select(constant(UNRESOLVED, U32), answer.status))
 
 
 def t_range(builder: KernelBuilder) -> tuple[Value, Value]:
@@ -81,6 +96,8 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
             near = load(builder.buffer("tile_start", F32), tile)
             step = load(builder.buffer("tile_step", F32), tile)
         answer = subject.nearest(lambda body: problem_on(body, ray, near, far, step), method.trace)
+        if method.certified:
+            answer = as_fine_as_asked(builder, ray, answer)
         write(builder, subject, lane, ray, answer, ends)
         if second:
             ask_second_look(builder, lane, answer, blunt=True)

@@ -134,9 +134,9 @@ def render(
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.smallest))
     uniforms |= shading_uniforms(materials[0], lit, scene.background, rays)
     coarse = shadow_length(shadow_tolerance, shown.smallest)
-    light = None
+    light, deep = None, lighting.depth(depth)
     if scene.shadows or lighting.optics is not None:
-        light = Illumination.of(scene, rays, coarse, lighting.depth(depth), smooth)
+        light = Illumination.of(scene, rays, coarse, deep, smooth)
     coloring = materials[0].coloring
     palette = None if coloring is None else _palette(coloring, scene, rays)
     outputs: GBuffer | Assembled

@@ -157,7 +157,8 @@ class _Shapes:
         if name in self._named:
             raise reader.fail(f"there are two surfaces named {name!r}", (*path, "name"), ("give one another name",))
         if ("formula" in table) == ("solid" in table):
-            raise reader.fail("a surface has a formula or a solid, and not both", path, ('formula = "x^2 + y^2 = 1"',))
+            wrong = "and not both" if "formula" in table else "and this one has neither"
+            raise reader.fail(f"a surface has a formula or a solid, {wrong}", path, ('formula = "x^2 + y^2 = 1"',))
         made = self.solid(table, path) if "solid" in table else self._surface(table, path)
         if name:
             self._named[name] = made

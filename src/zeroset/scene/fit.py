@@ -19,10 +19,10 @@ from zeroset.scene.parameters import LARGEST
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface
 
-SEARCHED = 64.0
-"""Half the side of the cube that is searched."""
-UNBOUNDED = 6.0
-"""Radius that a surface gets which leaves the cube."""
+SEARCHED = 64.0, 64.0**2, 64.0**3
+"""Half the sides of the cubes that are searched, each if there is nothing in the one before."""
+UNBOUNDED = 6.0 / 64.0
+"""Radius that a surface gets which leaves the cube, as a part of that."""
 BOXES = 2500
 """Boxes that a level may keep; beyond, the hull is good enough."""
 EVALUATIONS = 1_000_000
@@ -34,19 +34,16 @@ Corners = npt.NDArray[np.float64]
 
 def fit_bounds(thing: Surface | Solid) -> Ball:
     """The smallest ball found around a surface or a solid's skin; the unit ball where space holds no zero at all."""
-    surfaces = thing.surfaces
-    low, high = np.full((1, 3), -SEARCHED), np.full((1, 3), SEARCHED)
-    most = min(BOXES, max(64, EVALUATIONS // sum(surface.field.work for surface in surfaces)))
-    for _ in range(LEVELS):
-        inner_low, inner_high = _split(low, high)
-        kept = _may_hold_zero(thing, inner_low, inner_high)
-        low, high = inner_low[kept], inner_high[kept]
-        if not len(low) or len(low) > most:
+    for i, half in enumerate(SEARCHED):
+        low, high = _kept(thing, half, LEVELS + 6 * i)
+        if len(low):
             break
-    if not len(low):
+    else:
         return Ball(1.0)
-    if np.any(low.min(axis=0) <= -SEARCHED) or np.any(high.max(axis=0) >= SEARCHED):
-        return Ball(UNBOUNDED)
+    if np.any(low.min(axis=0) <= -half) or np.any(high.max(axis=0) >= half):
+        # Of what begins farther out at least the nearest part is in it.
+        nearest = float(np.sqrt((np.maximum(np.maximum(low, -high), 0.0) ** 2).sum(axis=1)).min())
+        return Ball(max(UNBOUNDED * half, 1.5 * nearest))
     center = 0.5 * (low.min(axis=0) + high.max(axis=0))
     far = np.maximum(np.abs(low - center), np.abs(high - center))
     radius = float(np.sqrt((far**2).sum(axis=1)).max())
@@ -55,6 +52,19 @@ def fit_bounds(thing: Surface | Solid) -> Ball:
     if about_origin <= 1.1 * radius:
         return Ball(about_origin * 1.01)
     return Ball(radius * 1.01, (float(center[0]), float(center[1]), float(center[2])))
+
+
+def _kept(thing: Surface | Solid, half: float, levels: int) -> tuple[Corners, Corners]:
+    """Lower and upper corners of boxes in a cube, as small as there is room for, outside of which is no zero."""
+    low, high = np.full((1, 3), -half), np.full((1, 3), half)
+    most = min(BOXES, max(64, EVALUATIONS // sum(surface.field.work for surface in thing.surfaces)))
+    for _ in range(levels):
+        inner_low, inner_high = _split(low, high)
+        kept = _may_hold_zero(thing, inner_low, inner_high)
+        low, high = inner_low[kept], inner_high[kept]
+        if not len(low) or len(low) > most:
+            break
+    return low, high
 
 
 def values_at(surface: Surface, points: Corners) -> Corners:

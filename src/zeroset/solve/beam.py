@@ -17,7 +17,7 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from zeroset.arith import Dual, DualSystem, IntervalSystem
-from zeroset.kernel import BOOL, U32, Value, constant, for_, if_, while_
+from zeroset.kernel import BOOL, U32, Value, constant, for_, if_, lift, while_
 from zeroset.solve.field import Lowered
 from zeroset.solve.shape import Body
 from zeroset.solve.subject import LoweredBody, Subject
@@ -187,4 +187,5 @@ def _may_vanish(patch: Patch, lowered: Lowered, t: Any, symbol: Value) -> tuple[
         return Dual(dual, base, (patch.system.exact(symbol.eq(0).select(along_u, along_v)),))
 
     moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
-    return (lowered.evaluate(dual, *moved).derivative(0).contains_zero(),)
+    # Where f is constant piece by piece, its derivative is a literal.
+    return (lift(lowered.evaluate(dual, *moved).derivative(0).contains_zero(), BOOL),)

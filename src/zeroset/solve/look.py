@@ -65,11 +65,13 @@ def read(problem: Problem, f: Any, over: Interval) -> Look:
     if not isinstance(f, AffineForm):
         return Look(excluded, False, f.defined, over.a, over.b, sign, sign, width)
     cut = f.contract()
-    left = problem.lift(cut.low).fma(over.half, over.middle).maximum(over.a)
-    right = problem.lift(cut.high).fma(over.half, over.middle).minimum(over.b)
+    low, high = (problem.lift(end).fma(over.half, over.middle) for end in (cut.low, cut.high))
+    left, right = low.maximum(over.a), high.minimum(over.b)
+    # What was looked at is a hair wider than [a, b]: a root in the hair is not one of this interval.
+    crosses = lift(cut.crosses, BOOL) & (low >= over.a) & (high <= over.b)
     # Where an operation leaves no slope at all, such as floor, contraction answers with literals.
     after = lift(cut.rising, BOOL).select(one, -one)
-    return Look(excluded, cut.crosses, f.defined, left, right, excluded.select(sign, -after), after, width)
+    return Look(excluded, crosses, f.defined, left, right, excluded.select(sign, -after), after, width)
 
 
 def stretch(system: Any, middle: Value, half: Value) -> Any:

@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from zeroset.arith import AffineSystem
-from zeroset.kernel import BOOL, U32, Value, constant, while_
+from zeroset.kernel import BOOL, F64, U32, Value, constant, while_
 from zeroset.solve.compound import Turn, look_at, note_parts
 from zeroset.solve.look import Interval, Look, read, stretch
 from zeroset.solve.problem import Answer, Problem
@@ -27,6 +27,8 @@ ZONE = 3
 """How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
 GRAZING = 48
 """Evaluations that getting away from the surface that a ray comes from may take."""
+PATIENCE = 1 << 15
+"""Evaluations in f64, whose narrowest intervals are 2^-26 of the bounds, after which the rest of a ray is left open."""
 BLUNT = 0.25
 """What a cut leaves of an interval around a simple root is less; around a triple one, a third, where bends are kept."""
 
@@ -95,8 +97,10 @@ def search(
         alive = alive & wanted
     zone = _Zone(problem.number(0.0), none, problem.t0, constant(True, BOOL), None if problem.body is None else none)
 
+    patient = problem.type == F64
+
     def running(*state: Value) -> Value:
-        return state[n]
+        return state[n] & (state[n + 7] < PATIENCE) if patient else state[n]
 
     def turn(*state: Value) -> State:
         zone = _Zone(*state[n + 1 : n + 5], *state[n + 12 :])
@@ -110,6 +114,11 @@ def search(
     state = while_(running, turn, *first, alive, *zone.components(), *begin, *zone.parts())
     # Where the slope is known it leaves little of the narrowest intervals that can hold the root.
     status, t, steps, clear, side, end, blunt, *mark = state[n + 5 :]
+    if patient:
+        given_up, (reached, _) = state[n], walk.interval(problem, state[:n])
+        status = given_up.select(constant(UNRESOLVED, U32), status)
+        t, clear = (given_up.select(reached, place) for place in (t, clear))
+        end = given_up.select(problem.t1, end)
     blunt = blunt | ((state[n + 2] > 0) & (end - clear > problem.tolerance * (BLUNT if _bends(system) else 0.5)))
     return Answer(t, status, steps, clear, side, end, mark[0] if mark else None, blunt)
 

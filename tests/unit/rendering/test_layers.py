@@ -95,6 +95,44 @@ def test_without_f64_what_touches_a_hit_stays_unresolved() -> None:
     assert hits.t[0, :4] == pytest.approx(roots[:4], abs=2e-3)
 
 
+@pytest.mark.parametrize("formula", ["T(5, y) + T(6, z)", "T(7, y) + x", "T(7, x) + T(5, y) + T(6, z)"])
+def test_no_root_is_found_twice(formula: str) -> None:
+    # Along an axis f has much the same slope everywhere, and one long look may prove a root that lies just before it.
+    surface = zs.surface(formula, bounds=1.2)
+    origins = np.random.default_rng(1).uniform(-0.7, 0.7, (2000, 3))
+    origins[:, 1] = -1.32
+    hits = zs.cast(surface, origins, [0, 1, 0], max_hits=8)
+    both = (hits.status[:, 1:] == zs.HIT) & (hits.status[:, :-1] == zs.HIT)
+    assert np.count_nonzero(both) > 1000
+    assert np.diff(hits.t, axis=1)[both].min() > surface.fitted.extent * 2.0**-15
+    # From one root to the next f crosses zero the other way.
+    assert np.all((hits.normal[:, 1:, 1] * hits.normal[:, :-1, 1])[both] < 0)
+
+
+@pytest.mark.parametrize("method", ["auto", "affine", "interval"])
+def test_a_ray_that_starts_on_the_surface_goes_on(method: str) -> None:
+    sheets = zs.cast(zs.surface("x (x - 1)", bounds=2), [0, 0.3, 0.2], [1, 0, 0], max_hits=4, method=method)
+    assert sheets.status[0].tolist() == [zs.UNRESOLVED, zs.HIT, zs.MISS, zs.MISS]
+    assert sheets.t[0, :2] == pytest.approx([0, 1], abs=1e-3)
+    ball = zs.surface("x^2 + y^2 + z^2 = 1", bounds=2)
+    away, through = zs.cast(ball, [0, -1, 0], [[0, -1, 0], [0, 1, 0]], max_hits=4, method=method).status
+    assert np.count_nonzero(away != zs.MISS) <= 1
+    assert np.count_nonzero(through != zs.MISS) == 2
+
+
+@pytest.mark.parametrize("distance", [1e2, 1e4, 1e6, 1e8])
+def test_far_away_a_hit_is_as_close_as_t_can_say(distance: float) -> None:
+    ball = zs.surface("x^2 + y^2 + z^2 = 1", bounds=2)
+    hits = zs.cast(ball, [0, -distance, 0], [0, 1, 0], max_hits=3)
+    apart = np.spacing(np.float32(distance))
+    true = np.array([distance - 1, distance + 1])
+    found = hits.t[0, hits.status[0] == zs.HIT].astype(float)
+    assert len(found) == (2 if apart < 1 else 1)
+    assert np.abs(found - true[: len(found)]).max() <= max(apart, 1e-3)
+    rough = zs.cast(ball, [0, -distance, 0], [0, 1, 0], device=narrow())
+    assert rough.status[0] == (zs.HIT if distance < 1e3 else zs.UNRESOLVED)
+
+
 def test_parts_outside_the_stretch_are_not_counted() -> None:
     ball = zs.surface("x^2 + y^2 + z^2 = 1", bounds=2)
     inside = zs.cast(ball, [0, 0, 5], [0, 0, -1], t_min=4.5, max_hits=2)

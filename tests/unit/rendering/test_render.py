@@ -178,3 +178,19 @@ def test_a_device_can_be_given() -> None:
     plane = zs.surface("z", bounds=1.0)
     slow, fast = (zs.render(plane, 8, SIDE, device=d, method="marching-points") for d in (device, "cpu"))
     assert np.mean(slow.aov("status") == fast.aov("status")) > 0.95
+
+
+@pytest.mark.parametrize("formula", ["floor(x) = 1/2", "sign(x) + sign(y) + sign(z)", "if(x < 0, 1, -1)", "0^x + y"])
+@pytest.mark.parametrize("method", ["auto", "interval"])
+def test_what_is_constant_piece_by_piece_is_drawn_where_it_jumps(formula: str, method: str) -> None:
+    image = zs.render(zs.surface(formula, bounds=2), 48, method=method, device="cpu")
+    assert image.hits > 100
+    assert image.unresolved > 100
+
+
+def test_where_functions_overflow_a_ray_is_left_open_and_not_walked_along_for_minutes() -> None:
+    tower = zs.surface("exp(exp(exp(x))) = y + 5", bounds=3)
+    hits = zs.cast(tower, [-2.5, 0, 0], [1, 0, 0], max_hits=3, device="cpu")
+    assert hits.status[0].tolist() == [zs.HIT, zs.UNRESOLVED, zs.MISS]
+    assert hits.t[0, 0] == pytest.approx(2.5 + np.log(np.log(np.log(5))), abs=1e-3)
+    assert hits.steps.max() < 40_000

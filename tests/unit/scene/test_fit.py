@@ -5,10 +5,10 @@ import pytest
 
 import zeroset as zs
 from zeroset.scene.bounds import Ball
-from zeroset.scene.fit import UNBOUNDED
+from zeroset.scene.fit import SEARCHED, UNBOUNDED
 
 
-@pytest.mark.parametrize("radius", [0.5, 3.0, 20.0])
+@pytest.mark.parametrize("radius", [0.5, 3.0, 20.0, 1000.0, 1e5])
 def test_a_sphere_gets_a_ball_a_little_larger(radius: float) -> None:
     bounds = zs.surface("x^2 + y^2 + z^2 = r^2", {"r": radius}).fitted
     assert isinstance(bounds, Ball)
@@ -22,9 +22,19 @@ def test_a_surface_away_from_the_origin_is_found() -> None:
     assert np.linalg.norm(np.subtract(bounds.center, (10, -7, 0))) + 1 < bounds.reach < 2.5
 
 
+def test_so_is_one_far_away() -> None:
+    bounds = zs.surface("(x - 1000)^2 + (y + 500)^2 + z^2 = 1").fitted
+    assert np.linalg.norm(np.subtract(bounds.center, (1000, -500, 0))) + 1 < bounds.reach < 2.5
+
+
+@pytest.mark.parametrize("distance", [30, 100, 50_000])
+def test_what_goes_on_for_ever_and_begins_far_out_is_in_sight(distance: int) -> None:
+    assert distance < zs.surface(f"x = {distance}").fitted.reach < 10 * distance
+
+
 @pytest.mark.parametrize("formula", ["z", "sin(x) + sin(y) + sin(z)", "x*y*z", "y^2 + z^2 = 1"])
 def test_what_goes_on_for_ever_is_shown_around_the_origin(formula: str) -> None:
-    assert zs.surface(formula).fitted == Ball(UNBOUNDED)
+    assert zs.surface(formula).fitted == Ball(UNBOUNDED * SEARCHED[0]) == Ball(6.0)
 
 
 @pytest.mark.parametrize("formula", ["x^2 + y^2 + z^2 + 1", "exp(x) + 1", "sqrt(x) + 1"])
