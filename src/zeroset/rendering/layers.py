@@ -136,20 +136,12 @@ def beyond(search: _Search, start: Value, former: Value | None = None) -> tuple[
         more = touches & (count < MOST_MERGED)
         spent = found[2] + answer.steps
         mark = () if answer.mark is None else (answer.mark,)
-        return (
-            more,
-            count + 1,
-            answer.end.maximum(at + past),
-            answer.t,
-            answer.status,
-            spent,
-            answer.clear,
-            answer.side,
-            answer.end,
-            *mark,
-        )
+        onward = answer.end.maximum(at + past)
+        place = (answer.t, answer.status, spent, answer.clear, answer.side, answer.end)
+        return more, count + 1, onward, *place, *mark
 
-    found = (begin, constant(MISS, U32), none, begin, zero, begin, *([] if search.subject.shape.plain else [none]))
+    mark = () if search.subject.shape.plain else (none,)
+    found = (begin, constant(MISS, U32), none, begin, zero, begin, *mark)
     state = while_(looking, look, constant(True, BOOL), none, begin, *found)
     return Answer(*state[3:]), state[1] > 1, begin
 

@@ -21,8 +21,8 @@ from zeroset.scene.surface import Surface
 
 SEARCHED = 64.0, 64.0**2, 64.0**3
 """Half the sides of the cubes that are searched, each if there is nothing in the one before."""
-UNBOUNDED = 6.0 / 64.0
-"""Radius that a surface gets which leaves the cube, as a part of that."""
+UNBOUNDED = 6.0
+"""Radius that a surface gets which leaves the first cube; one that leaves a larger one gets more in proportion."""
 BOXES = 2500
 """Boxes that a level may keep; beyond, the hull is good enough."""
 EVALUATIONS = 1_000_000
@@ -43,7 +43,7 @@ def fit_bounds(thing: Surface | Solid) -> Ball:
     if np.any(low.min(axis=0) <= -half) or np.any(high.max(axis=0) >= half):
         # Of what begins farther out at least the nearest part is in it.
         nearest = float(np.sqrt((np.maximum(np.maximum(low, -high), 0.0) ** 2).sum(axis=1)).min())
-        return Ball(max(UNBOUNDED * half, 1.5 * nearest))
+        return Ball(max(UNBOUNDED * half / SEARCHED[0], 1.5 * nearest))
     center = 0.5 * (low.min(axis=0) + high.max(axis=0))
     far = np.maximum(np.abs(low - center), np.abs(high - center))
     radius = float(np.sqrt((far**2).sum(axis=1)).max())

@@ -94,10 +94,15 @@ def _bounds(wish: Wish, wanted: Item) -> Bounds:
 
 
 def _camera(wish: Wish, state: State) -> Camera:
-    """A lone gallery surface's own camera; else the one that sees the new bounds as it saw the old ones."""
+    """A lone gallery surface's own camera, or the one that sees a lone surface as it saw the one before.
+
+    Others beside it stay where they are in the picture, as long as all of it is among them.
+    """
     if not (wish.typed or state.several):
         return state.item.surface.camera or fit_camera(state.bounds)
     before, camera = wish.state, wish.state.camera
+    if state.several and _within(state.bounds, before.bounds):
+        return camera
     return camera if _alike(before.bounds, state.bounds) else refitted(camera, before.bounds, state.bounds)
 
 
@@ -115,6 +120,11 @@ def _seen(shown: Shown) -> bool:
         return shown.picture.hits > 0
     alone = replace(shown.picture.shot.scene, surface=shown.item.drawn)
     return paint(replace(shown.picture.shot, scene=alone), lambda: False).hits > 0
+
+
+def _within(inner: Bounds, outer: Bounds) -> bool:
+    """Whether bounds reach hardly beyond others."""
+    return math.dist(inner.center, outer.center) + inner.reach < 1.25 * outer.reach
 
 
 def _alike(before: Bounds, after: Bounds) -> bool:

@@ -21,8 +21,11 @@ from zeroset.view.levels import Level, another, levels_of, value_span
 from zeroset.view.motion import Motion, moved
 from zeroset.view.spans import UNIT, Span, usual_span
 
-FRESH_FORMULA = "z = c"
-"""What a surface is at first that the user adds: seen at once, and easily typed over."""
+FRESH = ("z = c", 2, -1.0), ("y = c", 1, 1.0), ("x = c", 0, -1.0)
+"""What surfaces are at first that the user adds, by turns: a ground, a wall behind, one aside. Each with its axis, and
+on which side it lies of what is there: seen at once from almost anywhere, and easily typed over."""
+FARTHER = 0.25
+"""By how much of the scene's size those of the next turn lie farther out."""
 
 
 @dataclass(frozen=True)
@@ -88,13 +91,21 @@ def opened(key: int, shown: Surface, text: str, usual: Material) -> Item:
     return replace(item, level_span=value_span(plain, levels)) if levels else item
 
 
-def added(key: int, bounds: Bounds) -> Item:
-    """A surface to begin with, beside others that fill such bounds: a plane under them, seen from almost anywhere."""
-    (x, y, z), reach = bounds.center, bounds.reach
-    box = Box((x - 1.5 * reach, y - 1.5 * reach, z - 1.5 * reach), (x + 1.5 * reach, y + 1.5 * reach, z + reach))
-    plane = surface(FRESH_FORMULA, {"c": float(f"{z - reach:.2g}")}, box)
+def fresh(item: Item) -> bool:
+    """Whether it is still what it was when it was added."""
+    return any(item.text == formula for formula, _, _ in FRESH)
+
+
+def added(key: int, bounds: Bounds, before: int = 0) -> Item:
+    """A surface to begin with: a plane beside what fills such bounds, after so many others that are still as new."""
+    formula, axis, side = FRESH[before % len(FRESH)]
+    turn, reach = before // len(FRESH), bounds.reach
+    place = bounds.center[axis] + side * reach * (1.0 + FARTHER * turn)
+    half = reach * (1.5 + FARTHER * turn)
+    x, y, z = bounds.center
+    box = Box((x - half, y - half, z - half), (x + half, y + half, z + half))
     color = PALETTE[key % len(PALETTE)]
-    return Item(key, FRESH_FORMULA, plane, Material(front=color, back=color))
+    return Item(key, formula, surface(formula, {"c": float(f"{place:.2g}")}, box), Material(front=color, back=color))
 
 
 def span_of(item: Item, name: str) -> Span:

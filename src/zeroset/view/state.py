@@ -174,7 +174,11 @@ def with_another_item(state: State) -> State:
     if state.full:
         return state
     key = 1 + max(item.key for item in state.items)
-    return replace(state, items=(*state.items, items.added(key, state.bounds)), chosen=len(state.items))
+    # Planes that were added and not yet typed over are no measure of the scene.
+    own = [item for item in state.items if not items.fresh(item)] or list(state.items)
+    scene = replace(state, items=tuple(own), chosen=0)
+    new = items.added(key, scene.bounds, len(state.items) - len(own))
+    return replace(state, items=(*state.items, new), chosen=len(state.items))
 
 
 def without_item(state: State, place: int) -> State:

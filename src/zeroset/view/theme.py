@@ -39,11 +39,14 @@ def load_fonts(imgui: Any) -> Fonts:
 
     folder = Path(imgui_bundle.__file__).parent / "assets" / "fonts"
     atlas = imgui.get_io().fonts
-    words = atlas.add_font_from_file_ttf(str(folder / "Roboto" / "Roboto-Regular.ttf"), SIZE)
+    roboto = str(folder / "Roboto" / "Roboto-Regular.ttf")
+    words = atlas.add_font_from_file_ttf(roboto, SIZE)
     config = imgui.ImFontConfig()
     config.merge_mode = True
     atlas.add_font_from_file_ttf(str(folder / "Font_Awesome_6_Free-Solid-900.otf"), SIZE * 0.8, config)
     code = atlas.add_font_from_file_ttf(str(folder / "Inconsolata-Medium.ttf"), SIZE)
+    # Inconsolata has no Greek letters, which parameters may be.
+    atlas.add_font_from_file_ttf(roboto, SIZE, config)
     return Fonts(words, code)
 
 

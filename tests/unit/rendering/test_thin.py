@@ -11,7 +11,9 @@ from tests.gpus import no_gpu
 
 import zeroset as zs
 from zeroset.kernel import Kernel
-from zeroset.runtime import Program, get_device
+from zeroset.runtime import Program
+from zeroset.runtime.cache import Cache
+from zeroset.runtime.cpu import CpuDevice
 
 Array = np.ndarray[Any, Any]
 DEVICES = ["cpu", pytest.param("gpu", marks=pytest.mark.skipif(bool(no_gpu()), reason=no_gpu() or "there is one"))]
@@ -79,7 +81,8 @@ def test_normals_are_smooth_where_the_gradient_vanishes(name: str) -> None:
 
 
 def test_what_has_nothing_thin_needs_no_program_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    device, made = get_device("cpu"), []
+    # A device of its own: programs of pictures before may still be under way on the common one.
+    device, made = CpuDevice(cache=Cache(None)), []
     known = device.compile_cached
 
     def note(key: str, build: Callable[[], Kernel], quick: bool = False) -> Program:

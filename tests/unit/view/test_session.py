@@ -381,6 +381,32 @@ def test_one_of_several_is_looked_for_where_it_is(two: Driver) -> None:
     assert two.session.state.camera.target[0] == pytest.approx(4.0, abs=0.5)
 
 
+def test_planes_that_are_added_stand_around_what_is_there(two: Driver) -> None:
+    two.rest()
+    before = two.session.state
+    for _ in range(5):
+        two.session.state = states.with_another_item(two.session.state)
+    added = two.session.state.items[len(before.items) :]
+    assert [item.text for item in added] == ["z = c", "y = c", "x = c", "z = c", "y = c"]
+    places = [abs(item.surface.params["c"]) for item in added]
+    assert max(places) < 2 * before.bounds.reach
+    assert places[3] > places[0]
+    assert max(item.surface.fitted.reach for item in added) < 5 * before.bounds.reach
+
+
+def test_what_takes_a_planes_place_leaves_the_view_as_it_is(two: Driver) -> None:
+    two.rest()
+    two.session.state = states.with_another_item(two.session.state)
+    two.rest()
+    before = two.session.state
+    two.change(text="x^2 + y^2 + (z - 1)^2 = 0.2")
+    assert drawn_like_render(two)
+    after = two.session.state
+    assert after.bounds.reach < before.bounds.reach
+    assert after.camera == before.camera
+    assert after.home == before.home
+
+
 def test_a_plane_beside_others_stays_in_its_bounds(two: Driver) -> None:
     two.rest()
     two.session.state = states.with_another_item(two.session.state)
