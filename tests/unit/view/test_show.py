@@ -162,6 +162,13 @@ def test_an_option_that_is_refused_stays_as_it_was() -> None:
     assert fields == {}
 
 
+def test_why_a_method_cannot_draw_stands_beside_it() -> None:
+    ball = zs.surface("x^2 + y^2 + z^2 = 1 + sin(5x)/9", bounds=2)
+    assert method_panel.refusal(ball, zs.methods.Mitchell()) == ""
+    assert "isovalues" in method_panel.refusal(ball.with_isovalues((0, 1)), zs.methods.Mitchell())
+    assert "no polynomial" in method_panel.refusal(ball, zs.methods.Analytic())
+
+
 def test_a_light_stays_where_it_is_seen() -> None:
     camera = zs.Camera(eye=(2.0, -3.0, 1.0))
     for headlight in (True, False):

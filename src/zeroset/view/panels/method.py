@@ -7,9 +7,10 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from zeroset.errors import MethodError
+from zeroset.errors import MethodError, ZerosetError
 from zeroset.rendering.drawn import as_drawn
 from zeroset.rendering.render import default_tolerance
+from zeroset.scene.several import Drawable
 from zeroset.solve.method import METHODS, Method
 from zeroset.view import theme
 from zeroset.view.panels.context import Context
@@ -28,11 +29,23 @@ def draw(state: State, context: Context) -> State:
         method = METHODS[name]()
     said(imgui, method.summary, theme.FAINT)
     said(imgui, "certified" if method.certified else "not certified", theme.GOOD if method.certified else theme.ERROR)
+    refused = refusal(state.drawn, method)
+    if refused:
+        said(imgui, refused, theme.ERROR)
     for field in dataclasses.fields(method):
         method = _option(method, field.name, context)
     if method != state.method:
         state = replace(state, method=method)
     return _tolerance(state, context)
+
+
+def refusal(shown: Drawable, method: Method) -> str:
+    """Why a method cannot draw what is shown; empty where it can. The picture is the last one then, for as long."""
+    try:
+        as_drawn(shown).check(method)
+    except ZerosetError as error:
+        return error.message
+    return ""
 
 
 def _option(method: Method, name: str, context: Context) -> Method:
