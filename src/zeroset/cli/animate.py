@@ -89,7 +89,11 @@ def command(
     """
     from zeroset.export.animate import animate
 
-    moving: dict[str, Any] = dict(map(_motion, vary))
+    moving: dict[str, Any] = {}
+    for name, how in map(_motion, vary):
+        if name in moving:
+            raise ParameterError(f"{name} is to move in two ways", hint="say --vary once for each name")
+        moving[name] = how
     named, scene = _find(source, params, bounds, moving)
     if named is not None:
         moving = {**named.vary, **moving}

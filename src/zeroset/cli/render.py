@@ -21,7 +21,7 @@ from zeroset.cli.source import (
     surface_options,
     with_isovalues,
 )
-from zeroset.errors import ParameterError
+from zeroset.errors import OutputError, ParameterError
 
 if TYPE_CHECKING:
     from zeroset.rendering.image import Image
@@ -80,9 +80,12 @@ def command(
     from zeroset.runtime import twin
 
     path = picture_path(output)
-    for extra in (save_scene, save_outputs):
-        if extra is not None:
-            existing_folder(extra)
+    for extra, suffix in ((save_scene, ".toml"), (save_outputs, ".npz")):
+        if extra is None:
+            continue
+        existing_folder(extra)
+        if Path(extra).suffix.lower() != suffix:
+            raise OutputError(f"{extra!r} would be a {suffix} file", hint=f"call it {Path(extra).stem}{suffix}")
     scene = with_isovalues(find_scene(source, params, bounds), isovalues)
     scene = with_look(scene, look)
     if legend and scene.materials[0].coloring is None:

@@ -118,6 +118,8 @@ BAD = [
     ([BALL, "-o", "."], ["cannot"]),
     ([BALL, "-o", "a.xyz"], ["cannot tell a picture format", ".png"]),
     ([BALL, "--save-scene", "none/a.toml"], ["no folder"]),
+    ([BALL, "--save-scene", "a.txt"], ["would be a .toml file", "call it a.toml"]),
+    ([BALL, "--save-outputs", "a.txt"], ["would be a .npz file", "call it a.npz"]),
     ([BALL, "-s", "0"], ["size must be from 1"]),
     ([BALL, "-s", "-1"], ["size must be from 1"]),
     ([BALL, "-s", "99999"], ["size must be from 1"]),
