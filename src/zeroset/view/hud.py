@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -88,15 +89,32 @@ def numbers(state: State, context: Context) -> list[tuple[str, theme.Color]]:
     assert picture is not None
     height, width = picture.depth.shape
     proof = ("certified", theme.GOOD) if picture.certified else ("not certified", theme.ERROR)
+    # Where most is open nothing false is claimed, but little is known.
+    open_ = theme.ERROR if 2 * picture.unresolved > picture.hits else theme.FAINT
     parts = [
         (f"{picture.milliseconds:.1f} ms", theme.TEXT),
         (f"{width} x {height}", theme.FAINT),
         (f"{picture.hits:,} hits", theme.FAINT),
-        (f"{picture.unresolved:,} unresolved", theme.FAINT),
+        (f"{picture.unresolved:,} unresolved", open_),
         (picture.device, theme.FAINT),
         proof,
     ]
-    return [*parts, ("flying, Esc ends it", theme.ACCENT)] if state.flying else parts
+    more = [("a better one is on its way ...", theme.ACCENT)] if context.session.late else []
+    return [*parts, *more, ("flying, Esc ends it", theme.ACCENT)] if state.flying else [*parts, *more]
+
+
+SPARED = 1, 4, 2, 0, 3
+"""Which of the numbers a narrow picture leaves out, the least needed first: what is proven is said to the last."""
+
+
+def fitting(widths: Sequence[float], gap: float, room: float) -> list[int]:
+    """Which of the numbers there is room for."""
+    kept = list(range(len(widths)))
+    for spared in SPARED:
+        if sum(widths[i] for i in kept) + gap * (len(kept) - 1) <= room:
+            break
+        kept.remove(spared)
+    return kept
 
 
 def _numbers(state: State, context: Context, pane: Pane, pen: Any) -> None:
@@ -104,6 +122,8 @@ def _numbers(state: State, context: Context, pane: Pane, pen: Any) -> None:
     imgui = context.imgui
     parts, gap = numbers(state, context), 18.0
     widths = [imgui.calc_text_size(text).x for text, _ in parts]
+    kept = fitting(widths, gap, pane.width - 52)
+    parts, widths = [parts[i] for i in kept], [widths[i] for i in kept]
     x, y = pane.x + 14, pane.y + pane.height - 38
     end = x + sum(widths) + gap * (len(parts) - 1) + 24
     pen.add_rect_filled((x, y), (end, y + 26), packed(imgui, SHADE, 0.82), 6.0)

@@ -28,6 +28,8 @@ from zeroset.view.worker import Failed, Newest
 
 REST = 0.15
 """Seconds without a change before the full picture is drawn."""
+LATE = 1.0
+"""Seconds after which it is said that a picture is on its way."""
 COLUMNS = 42
 """Characters of a formula that the sidebar shows beside each other."""
 
@@ -84,6 +86,11 @@ class Session:
     def drawing(self) -> bool:
         """Whether a picture is being drawn."""
         return self._painter.busy
+
+    @property
+    def late(self) -> bool:
+        """Whether a better picture has been on its way for a while."""
+        return self.drawing and time.perf_counter() - self._changed > LATE
 
     @property
     def resting(self) -> bool:

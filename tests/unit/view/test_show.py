@@ -12,6 +12,7 @@ import pytest
 import zeroset as zs
 from zeroset.errors import MethodError, OutputError, ParameterError, ViewError
 from zeroset.view import canvas, errands, notebook
+from zeroset.view.hud import fitting
 from zeroset.view.log import Log
 from zeroset.view.panels import bounds as bounds_panel
 from zeroset.view.panels import light as light_panel
@@ -201,3 +202,14 @@ def test_nothing_that_draws_windows_is_loaded_before_there_is_one() -> None:
     )
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == ""
+
+
+def test_a_narrow_picture_keeps_the_word_on_what_is_proven() -> None:
+    widths = [52.0, 70.0, 90.0, 100.0, 28.0, 60.0]
+    assert fitting(widths, 18.0, 600.0) == [0, 1, 2, 3, 4, 5]
+    assert fitting(widths, 18.0, 450.0) == [0, 2, 3, 4, 5]
+    assert fitting(widths, 18.0, 400.0) == [0, 2, 3, 5]
+    assert fitting(widths, 18.0, 200.0) == [3, 5]
+    assert fitting(widths, 18.0, 10.0) == [5]
+    # What comes after it is a message, and stays.
+    assert fitting([*widths, 150.0], 18.0, 10.0) == [5, 6]
