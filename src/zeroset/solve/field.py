@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
-from zeroset.kernel import F32, U32, Buffer, KernelBuilder, Type, Value, for_, load
+from zeroset.kernel import BOOL, F32, U32, Buffer, KernelBuilder, Type, Value, constant, for_, if_, lift, load
 from zeroset.solve.names import OFFSET, array_names, length_name, parameter_names
 
 Number = Any
@@ -40,6 +40,10 @@ class Field(Protocol):
     def highest_power(self) -> int:
         """The largest whole exponent in f as it is written; 1 where there is none."""
 
+    @property
+    def numerator(self) -> Field | None:
+        """Another function, 0 wherever f is, that is defined where f has a pole; None where f has none."""
+
     def evaluate(self, system: Any, env: Any) -> Number:
         """f on numbers of ``system`` with leaves from ``env``."""
 
@@ -64,6 +68,22 @@ class Lowered:
         self._parameters = {name: self._uniform_pair(name) for name in sorted(field.parameters)}
         self._offset = self._uniform_pair(OFFSET) if offset else None
         self._arrays = {name: self._array(name) for name in sorted(field.arrays)}
+        top = None if offset else field.numerator
+        self.numerator = None if top is None else Lowered(top, builder, type_, prefix=prefix)
+
+    def beside_poles(self, f: Number, excluded: Value, numerator: Callable[[Lowered], Number]) -> Value:
+        """Whether f has no zero, where its enclosure alone does not say so because f is not defined everywhere.
+
+        Args:
+            f: an enclosure.
+            excluded: whether it excludes 0.
+            numerator: gives an enclosure of what vanishes where f does, over the same points.
+        """
+        if self.numerator is None:
+            return constant(False, BOOL)
+        top, open_ = self.numerator, ~excluded & ~lift(f.defined, BOOL)
+        (free,) = if_(open_, lambda: (~lift(numerator(top).contains_zero(), BOOL),), lambda: (False,))
+        return free
 
     def _uniform_pair(self, name: str) -> tuple[Value, Value]:
         value, error = parameter_names(self.prefix + name, self.type)

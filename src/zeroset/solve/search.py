@@ -39,7 +39,14 @@ def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
     t = stretch(system, over.middle, over.half)
     if problem.body is not None:
         return look_at(problem, problem.body, system, t, over)
-    return read(problem, problem.lowered.along(system, problem.ray, t), over)
+    f = problem.lowered.along(system, problem.ray, t)
+    seen = read(problem, f, over)
+    if problem.lowered.numerator is None:
+        return seen
+    # At a pole there is no zero, but f may well have another sign behind it.
+    free = problem.lowered.beside_poles(f, seen.excluded, lambda top: top.along(system, problem.ray, t))
+    before, after = (free.select(0.0, sign) for sign in (seen.before, seen.after))
+    return seen._replace(excluded=seen.excluded | free, before=before, after=after)
 
 
 def _differ(problem: Problem, a: Value, b: Value) -> Value:

@@ -61,9 +61,11 @@ class LoweredBody:
 
     def free(self, leaf: Leaf, system: Any, point: Point) -> Value:
         """Whether a leaf has certainly no zero, or none of its isovalues, at these points."""
-        f = self.leaf(leaf).evaluate(system, *point)
+        lowered = self.leaf(leaf)
+        f = lowered.evaluate(system, *point)
         if not leaf.levels:
-            return ~lift(f.contains_zero(), BOOL)
+            excluded = ~lift(f.contains_zero(), BOOL)
+            return excluded | lowered.beside_poles(f, excluded, lambda top: top.evaluate(system, *point))
         result = constant(True, BOOL)
         for value in self.isovalues(leaf, system):
             result = result & ~lift((f - value).contains_zero(), BOOL)

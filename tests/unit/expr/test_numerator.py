@@ -1,0 +1,86 @@
+"""The numerator of a formula: 0 wherever f is, and never 0 only because f has a pole."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import zeroset as zs
+from zeroset.expr import numerator, parse, postorder, text
+
+FRACTIONS = {
+    "1/x^2 + 1": "1 + x^2",
+    "1/x = y": "1 - y*x",
+    "x/(y - 1) + z/(y - 1)": "x + z",
+    "(x/y)^3": "x^3",
+    "tan(x) = y": "sin(x) - y*cos(x)",
+    "1/(1/x + 1)": "x",
+}
+
+
+@pytest.mark.parametrize("formula", FRACTIONS)
+def test_fractions_are_multiplied_out(formula: str) -> None:
+    top = numerator(parse(formula))
+    assert top is not None
+    assert text(top) == FRACTIONS[formula]
+
+
+@pytest.mark.parametrize("formula", ["x^2 + y^2 + z^2 = 1", "x/3 + y", "sqrt(1/x) + y", "sum(i, 1/(x - c[i])) + y"])
+def test_what_divides_by_nothing_has_none(formula: str) -> None:
+    assert numerator(parse(formula, arrays={"c"} if "c[" in formula else set())) is None
+
+
+def test_it_is_hardly_longer_than_f() -> None:
+    f = parse(" + ".join(f"1/(x - {i})" for i in range(60)))
+    top = numerator(f)
+    assert top is not None
+    assert len(list(postorder(top))) < 1.5 * len(list(postorder(f)))
+
+
+@pytest.mark.parametrize("formula", ["1/x + 1/y - z", "(x + 1)/(y - 2) * tan(z) - x/y", "-(1/x - 2)^2 / (z + 3) + y"])
+def test_it_vanishes_with_f(formula: str) -> None:
+    f, top = parse(formula), numerator(parse(formula))
+    assert top is not None
+    random = np.random.default_rng(5)
+    ratio = []
+    for point in random.uniform(0.2, 1.4, (40, 3)):
+        names = dict(zip("xyz", point.tolist(), strict=True)) | {"tan": math.tan, "sin": math.sin, "cos": math.cos}
+        above, below = (eval(text(e).replace("^", "**"), {}, names) for e in (top, f))
+        ratio.append(above / below)
+    # N/f is the denominator: a number that is neither 0 nor without end.
+    assert np.all(np.isfinite(ratio))
+    assert np.abs(ratio).min() > 1e-6
+
+
+@pytest.mark.parametrize("method", ["auto", "affine", "interval"])
+@pytest.mark.parametrize(
+    ("formula", "same"),
+    [
+        ("1/x^2 = -1", None),
+        ("1/x + 1/y = 1", "x + y = x y"),
+        ("(x^2 + y^2 + z^2 - 0.3)/(x^2 + y^2 + z^2 - 0.6)", "x^2 + y^2 + z^2 = 0.3"),
+        ("tan(x) = y", "sin(x) = y cos(x)"),
+    ],
+)
+def test_poles_are_no_surface(formula: str, same: str | None, method: str) -> None:
+    image = zs.render(zs.surface(formula, bounds=1.9), 64, method=method, device="cpu")
+    if same is None:
+        assert image.hits == 0
+        return
+    other = zs.render(zs.surface(same, bounds=1.9), 64, method=method, device="cpu")
+    seen, true = (picture.aov("status") != zs.MISS for picture in (image, other))
+    # 1/x + 1/y = 1 is not defined along x = y = 0, where x + y = x y holds.
+    assert np.count_nonzero(seen != true) <= 0.01 * np.count_nonzero(true)
+    assert image.unresolved <= 10
+
+
+def test_behind_a_pole_roots_are_found_with_their_signs() -> None:
+    hits = zs.cast(zs.surface("(x - 1)/(x + 1) - 3 + y", bounds=4), [-4, 0, 0], [1, 0, 0], max_hits=3)
+    # (x - 1) = 3 (x + 1) at x = -2; the pole at -1 and the rest of the way hold nothing.
+    assert hits.status[0].tolist() == [zs.HIT, zs.MISS, zs.MISS]
+    assert hits.t[0, 0] == pytest.approx(2.0, abs=1e-3)
+    double = zs.cast(zs.surface("1/x - 4x", bounds=2), [-2, 0.1, 0.2], [1, 0, 0], max_hits=4)
+    assert double.status[0].tolist() == [zs.HIT, zs.HIT, zs.MISS, zs.MISS]
+    assert double.t[0, :2] == pytest.approx([1.5, 2.5], abs=1e-3)
