@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.gpus import needs_gpu
 
 import zeroset as zs
 from zeroset.expr import numerator, parse, postorder, text
@@ -74,6 +75,14 @@ def test_poles_are_no_surface(formula: str, same: str | None, method: str) -> No
     # 1/x + 1/y = 1 is not defined along x = y = 0, where x + y = x y holds.
     assert np.count_nonzero(seen != true) <= 0.01 * np.count_nonzero(true)
     assert image.unresolved <= 10
+
+
+@needs_gpu
+def test_poles_are_no_surface_on_a_gpu_either() -> None:
+    surface = zs.surface("(x^2 + y^2 + z^2 - 0.3)/(x^2 + y^2 + z^2 - 0.6)", bounds=1)
+    cpu, gpu = (zs.render(surface, 64, device=device) for device in ("cpu", "gpu"))
+    assert gpu.unresolved == 0
+    assert np.count_nonzero(cpu.aov("status") != gpu.aov("status")) <= 1
 
 
 def test_behind_a_pole_roots_are_found_with_their_signs() -> None:
