@@ -17,7 +17,7 @@ import zeroset as zs
 from .held import proving_methods
 from .judge import EDGE, FINE
 
-RADIUS = 4.0
+RADIUS = 4.5
 
 
 @dataclass(frozen=True)
