@@ -56,7 +56,7 @@ def _fraction(part: Expr, args: tuple[Fraction, ...]) -> Fraction:
         case "powi", ((a, b),) if int(part.data[0]) > 0 and b is not ONE:
             return a ** int(part.data[0]), b ** int(part.data[0])
         case "abs", ((a, b),) if b is not ONE:
-            return a, b
+            return build("abs", (a,)), build("abs", (b,))
         case "tan", ((a, b),) if b is ONE:
             return build("sin", (a,)), build("cos", (a,))
     return part, ONE

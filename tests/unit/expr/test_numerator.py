@@ -18,6 +18,7 @@ FRACTIONS = {
     "(x/y)^3": "x^3",
     "tan(x) = y": "sin(x) - y*cos(x)",
     "1/(1/x + 1)": "x",
+    "|x/y| - 1": "abs(x) - abs(y)",
 }
 
 
@@ -53,6 +54,41 @@ def test_it_vanishes_with_f(formula: str) -> None:
     # N/f is the denominator: a number that is neither 0 nor without end.
     assert np.all(np.isfinite(ratio))
     assert np.abs(ratio).min() > 1e-6
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        "|x/y| + z",
+        "(x/y)^2 - |1/z|",
+        "(x/y)^3/(z - 3)",
+        "-(x/(y + 2)) * |z/x|",
+        "tan(x)/y - 1/|z|",
+        "1/(1/x - 1/y) + z",
+    ],
+)
+def test_it_is_zero_at_every_zero_of_f(formula: str) -> None:
+    # Every point is a zero of f less f's value there; points on all sides of all axes.
+    random = np.random.default_rng(6)
+    functions = {"tan": math.tan, "sin": math.sin, "cos": math.cos, "abs": abs}
+    for point in random.uniform(-1.4, 1.4, (60, 3)):
+        names = dict(zip("xyz", point.tolist(), strict=True)) | functions
+        value = eval(text(parse(formula)).replace("^", "**"), {}, names)
+        top = numerator(parse(f"{formula} - ({value!r})"))
+        assert top is not None
+        terms = text(top).replace("^", "**")
+        beside = eval(terms, {}, names | {"z": names["z"] + 1e-3, "x": names["x"] + 1e-3})
+        assert abs(eval(terms, {}, names)) < 1e-9 * max(1.0, abs(value)) + 1e-6 * abs(beside)
+
+
+def test_a_root_on_either_side_of_a_pole_is_kept() -> None:
+    # |x/y| = 1 at y = x and y = -x, with the pole between them: nearer to it than a first look is wide.
+    offset = -np.array([1e-1, 1e-2, 3e-3])
+    origins = np.stack([offset, np.full(3, -1.9), np.full(3, 0.1)], axis=1)
+    hits = zs.cast(zs.surface("|x/y| - 1", bounds=2), origins, [0, 1, 0], max_hits=3)
+    assert np.all(hits.status[:, :2] != zs.MISS)
+    assert hits.t[:, 0] == pytest.approx(1.9 + offset, abs=1e-3)
+    assert hits.t[:, 1] == pytest.approx(1.9 - offset, abs=1e-3)
 
 
 @pytest.mark.parametrize("method", ["auto", "affine", "interval"])
