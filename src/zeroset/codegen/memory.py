@@ -1,7 +1,9 @@
 """Loads, stores and atomics of W lanes at once.
 
 A uniform index is one scalar access. The dispatch index itself, or it plus something uniform, is one vector access;
-any other index is a gather or scatter. Whatever the lanes that are not active hold as an index, they touch no memory
+any other index is a gather or scatter. Where packets read one stretch of a buffer after the other, what those to come
+will read is asked for in time: a frame's arrays are too long for the near caches, and a packet's first load waited for
+memory a tenth of a pass. Whatever the lanes that are not active hold as an index, they touch no memory
 that is not the buffer's: vector accesses carry the mask, and a gather reads the first element for them. Indices are
 signed 32-bit, so a buffer holds fewer than 2^31 elements.
 """
@@ -12,6 +14,8 @@ from zeroset.codegen.writer import SCALARS, Writer, is_constant, literal_text
 from zeroset.kernel.types import Buffer
 from zeroset.kernel.value import Instruction, Value
 
+_AHEAD = 256
+"""Bytes by which a load's place is ahead of what is being read when it is asked for: a few packets' time."""
 _COMBINE = {
     "atomic_add": {"i": "add", "u": "add"},
     "atomic_min": {"i": "min", "u": "umin"},
@@ -37,7 +41,10 @@ class Memory:
         if not writer.is_varying(result):
             text = writer.assign(f"load {SCALARS[type_.name]}, ptr {self._place(name, index)}, align {type_.size}")
         elif (start := self._contiguous(index)) is not None:
-            text = self._masked("load", name, ("ptr", self._start(name, start)))
+            place = self._start(name, start)
+            if not self._beside(index):
+                self._ask_for(place)
+            text = self._masked("load", name, ("ptr", place))
         elif (shared := self._shared(index)) is not None:
             text = self._load_shared(name, index, shared)
         else:
@@ -53,6 +60,23 @@ class Memory:
             self._store_row(name, self._start(name, start), writer.vector(value))
         else:
             self._masked("scatter", name, (f"<{writer.width} x ptr>", self._places(name, index)), writer.vector(value))
+
+    def _beside(self, index: Value) -> bool:
+        """Whether an index is some lanes away from another that will have been read, or soon is: a constant of them."""
+        definition = index.definition
+        while definition is not None and definition.op in ("add", "sub"):
+            a, b = definition.operands
+            if is_constant(a) or is_constant(b):
+                return True
+            definition = (a if self.writer.is_varying(a) else b).definition
+        return False
+
+    def _ask_for(self, place: str) -> None:
+        """Fetch what lies ahead of a place into the caches; past a buffer's end that does nothing."""
+        writer = self.writer
+        writer.declarations.add("declare void @llvm.prefetch.p0(ptr, i32, i32, i32)")
+        ahead = writer.assign(f"getelementptr i8, ptr {place}, i64 {_AHEAD}")
+        writer.line(f"call void @llvm.prefetch.p0(ptr {ahead}, i32 0, i32 3, i32 1)")
 
     def _gather(self, name: str, index: Value) -> str:
         """One load a lane; those that are not active read the first element, which is there if any is.

@@ -171,6 +171,16 @@ def test_state_that_nobody_reads_is_not_blended() -> None:
     assert to_llvm(k.kernel, next(iter(TARGETS.values()))).count("select") == 1
 
 
+def test_what_the_next_packets_read_is_asked_for() -> None:
+    with KernelBuilder("k") as k:
+        x, y, i, row = k.buffer("x", F32), k.buffer("y", F32, writable=True), k.index(), k.uniform("row", U32)
+        near = load(x, i) + load(x, i + 1) + load(x, i + 4 + 1)
+        store(y, i, near + load(x, i + row) + load(x, i * 3))
+    text = to_llvm(k.kernel, next(iter(TARGETS.values())))
+    # The lane's own place and the one in another row; not those beside it, nor those without an order.
+    assert text.count("call void @llvm.prefetch") == 2
+
+
 def test_the_text_is_the_same_each_time() -> None:
     target = next(iter(TARGETS.values()))
     assert to_llvm(operation("fma", F64, False), target) == to_llvm(operation("fma", F64, False), target)
