@@ -123,7 +123,7 @@ class FormulaError(ZerosetError, ValueError):
 
     def place(self) -> str:
         """The formula, windowed around the spot, with a caret under it."""
-        if self.text is None or self.position is None:
+        if self.text is None or self.position is None or not self.text.strip():
             return ""
         return excerpt(self.text, self.position, self.length)
 

@@ -37,6 +37,11 @@ def test_text_is_message_place_and_hints():
     assert error.hint == "first"
 
 
+@pytest.mark.parametrize("text", ["", "  "])
+def test_nothing_has_no_caret(text):
+    assert str(FormulaError("empty", text=text, position=0, hint="h")) == "empty\n  hint: h"
+
+
 def test_hint_alone_is_first():
     assert ZerosetError("m", hint="a", hints=("b",)).hints == ("a", "b")
     assert ZerosetError("m").hint == ""

@@ -24,6 +24,8 @@ COMMAND_SURFACE = "barth-sextic"
 PASSES_SURFACE = "barth-sextic"
 
 
+KINDS = ("memory", "light", "cold", "passes", "papers")
+"""What may be measured instead of frames."""
 SIZES = (512, 1024)
 """Pixels a side where nobody asks for others."""
 
@@ -49,6 +51,10 @@ class _Bench(click.Command):
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
+        # Of several such options the last one would count, in silence.
+        asked = [option for option in dict.fromkeys(args) if option[2:] in KINDS and option.startswith("--")]
+        if len(asked) > 1:
+            raise click.UsageError(f"{' and '.join(asked)} are measured one at a time")
         with super().make_context(info_name, list(args), parent, resilient_parsing=True) as seen:
             names: Sequence[str] = seen.params.get("names") or ()
         if not names or names[0] != paper.name:

@@ -6,6 +6,7 @@ import click
 
 from zeroset.cli.progress import Progress
 from zeroset.cli.source import picture_path, read_method
+from zeroset.errors import ZerosetError
 
 CELL_TEXT = 18
 COLUMNS = 8
@@ -21,6 +22,9 @@ COLUMNS = 8
 @click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
 def command(name: str | None, sheet: str | None, cell: int, method: str, device: str) -> None:
     """List the surfaces, tell all about NAME, or draw a contact sheet."""
+    if name is not None and sheet is not None:
+        hints = (f"to draw {name}: zeroset render {name} -o {sheet}", "to draw them all, leave the name out")
+        raise ZerosetError("the sheet shows every surface, not one", hints=hints)
     if sheet is not None:
         _draw_sheet(sheet, cell, method, device)
     elif name is not None:

@@ -66,4 +66,5 @@ def in_toml(hint: str) -> str:
         ('give it one: params = {a = 1.0}', 'try up = [0, 0, 1]')
     """
     hint = re.sub(r"params=\{'(\w+)': [^}]*\}", r"params = {\1 = 1.0}", hint)
-    return re.sub(r"\b(bounds|up)=(\()?([^)]*)\)?", lambda m: f"{m[1]} = {f'[{m[3]}]' if m[2] else m[3]}", hint)
+    lists = str.maketrans("()", "[]")
+    return re.sub(r"\b(bounds|up)=(\(.*\)|[^()]*)", lambda m: f"{m[1]} = {m[2].translate(lists)}", hint)

@@ -130,6 +130,11 @@ def parse_bounds(value: Any) -> Bounds | None:
     if (isinstance(value, Sequence) and not isinstance(value, str)) or (isinstance(value, np.ndarray) and value.ndim):
         if len(value) != 2:
             raise BoundsError(f"bounds as a sequence are two corners, not {len(value)} items", hint="try bounds=3.0")
+        if all(isinstance(corner, (int, float)) for corner in value):
+            raise BoundsError(
+                f"bounds as a sequence are two corners of three numbers each, not {value[0]!r} and {value[1]!r}",
+                hints=("try bounds=((-1, -1, -1), (1, 1, 1))", "a ball around the origin is one number: bounds=3.0"),
+            )
         return Box(value[0], value[1])
     try:
         radius = float(value)

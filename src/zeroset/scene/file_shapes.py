@@ -127,7 +127,9 @@ def _bounds(reader: Reader, data: Mapping[str, Any], path: Path) -> Bounds | Non
 
 def _isovalues(reader: Reader, data: Mapping[str, Any], path: Path) -> tuple[Any, Any]:
     """The isovalues, and their colours if there are any."""
-    values = reader.kinds(data["isovalues"], (*path, "isovalues"))
+    values = reader.kinds(data["isovalues"], (*path, "isovalues")) if isinstance(data["isovalues"], list) else None
+    if values is None:
+        raise reader.fail("isovalues must be a list of numbers", (*path, "isovalues"), ("isovalues = [0.0, 0.5]",))
     return values, reader.kinds(data["colors"], (*path, "colors")) if "colors" in data else None
 
 

@@ -150,6 +150,11 @@ def test_papers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert row[6:8] == ["-", "-"]
 
 
+def test_one_kind_at_a_time(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", "tangle", "--memory", "--light"]) == 2
+    assert "--memory and --light are measured one at a time" in capsys.readouterr().err
+
+
 def test_cold(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "goursat", "--cold", "--runs", "1", "--size", "16", "--markdown"]) == 0
     head, _, row = _cells(capsys.readouterr().out)

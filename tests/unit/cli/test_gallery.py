@@ -50,6 +50,13 @@ def test_a_sheet_of_all_surfaces(zeroset: Run, tmp_path: Path, monkeypatch: pyte
     assert len(np.unique(pixels.reshape(-1, 3), axis=0)) > 50
 
 
+def test_a_sheet_of_one_surface_is_a_picture(zeroset: Run, tmp_path: Path) -> None:
+    ran = zeroset("gallery", "tangle", "--sheet", "one.png")
+    assert ran.status == 2
+    assert "to draw tangle: zeroset render tangle -o one.png" in ran.err
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("target", ["none/all.png", "all.xyz"])
 def test_a_sheet_that_cannot_be_written_is_not_drawn(target: str, zeroset: Run, tmp_path: Path) -> None:
     ran = zeroset("gallery", "--sheet", target)

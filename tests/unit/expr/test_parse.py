@@ -278,7 +278,8 @@ def test_bad_input_names_the_place_and_the_cure(text, position, message):
     assert error.position == position
     assert error.hints
     shown = str(error).splitlines()
-    assert shown[2].index("^") == 2 + position
+    # Nothing has no place.
+    assert not text.strip() or shown[2].index("^") == 2 + position
     assert "\n" not in error.message
 
 

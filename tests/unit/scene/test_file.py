@@ -162,6 +162,9 @@ LIGHTS = f"{F}\n[[lights]]\ndirection = [0, 0, 1]\n\n[[lights]]\n"
         (F + "\nbounds = 1" + "0" * 5000, None, "no TOML.*digits", ""),
         (F + "\nbounds = " + "[" * 3000 + "]" * 3000, None, "nested too deeply", ""),
         (F + "\nbounds = " + "[" * 100 + "]" * 100, 2, "two corners", ""),
+        (F + "\nbounds = [1, 2]", 2, "three numbers each, not 1 and 2", r"try bounds = [[-1, -1, -1], [1, 1, 1]]"),
+        (F + '\nisovalues = "a"', 2, "isovalues must be a list", "isovalues = [0.0, 0.5]"),
+        (F + "\nisovalues = 1.5", 2, "isovalues must be a list", "isovalues = [0.0, 0.5]"),
         (F + "\nbounds = 1" + "0" * 400, 2, "bounds must be a number", ""),
     ],
 )
