@@ -63,7 +63,8 @@ def beam_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False
         start, step = cells.start()
         near = cells.wanted().select(start, EMPTY_TILE)
         aiming, far = cells.level.eq(IN_TILES), t_range(builder)[1]
-        beam = trace_beam(patch, near, far, step, cells.finest(), aiming, unsure=cells.level < IN_PIXELS)
+        unsure = cells.level < IN_PIXELS
+        beam = trace_beam(patch, near, far, step, cells.finest(), aiming, unsure, cells.ordinary())
         keep = _Keeping(builder, subject, cells, beam)
 
         def found() -> None:

@@ -8,7 +8,7 @@ was clear, so that none looks twice at what lies before.
 
 from __future__ import annotations
 
-from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Type, Value, constant, load
+from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Type, Value, constant, for_, if_, load
 from zeroset.rendering.buffers import (
     BLOCK,
     FIELDS,
@@ -20,14 +20,18 @@ from zeroset.rendering.buffers import (
     THIN,
     THIN_PIXEL,
 )
-from zeroset.rendering.layout import TILE, tile_of
+from zeroset.rendering.layout import TILE, lane_of, pixel_place, tile_of
 from zeroset.rendering.primary import t_range
+from zeroset.solve.beam import Ordinary
 from zeroset.solve.status import MISS
 
 WIDTHS = 8.0, 4.0, 2.0, 1.0, 0.25
 """Side of what a lane looks at, in pixels."""
 FINENESS = 1.0, 1.0, 0.5, 0.125, 0.125
 """The shortest step along a beam as a part of its width."""
+STEADINESS = 0.0, 2.0**-6, 2.0**-6, 2.0**-6, 0.4
+"""The share of one derivative across a patch that the other one keeps beside an ordinary silhouette, for f's gradient
+turns little there. In a neck thinner than a pixel it turns by half a turn, and that must not be passed over."""
 HALF = 0.505
 """Half a side, and a hundredth for how coordinates are rounded: between two neighbours nothing gets lost."""
 
@@ -118,6 +122,28 @@ class Cells:
         marked = load(self._builder.buffer(MISSED, U32, writable=True), self.lane >> 4).ne(0)
         always = constant(True, BOOL)
         return self._pick(always, marked, missed | others[0] | others[1] | others[2], missed, always)
+
+    def ordinary(self) -> Ordinary:
+        """What f's derivatives across a lane's patch are like beside an ordinary silhouette."""
+        beside = if_(self.level >= IN_PIXELS, self._hits_beside, lambda: (False, False))
+        return Ordinary(self._number(STEADINESS), *beside)
+
+    def _hits_beside(self) -> tuple[Value, ...]:
+        """Whether the ray of a pixel to the left or right of a lane's has met something, and one above or below."""
+        builder, status = self._builder, self._builder.buffer("status", U32, writable=True)
+        column, row = pixel_place(builder, self.lane)
+        last = [builder.uniform(name, U32) - 1 for name in ("width", "height")]
+
+        def one(i: Value, across: Value, down: Value) -> tuple[Value, ...]:
+            # Numbers wrap around at 0: the first pixel's other neighbour is taken twice.
+            step, sideways = (i & 1) * 2 - 1, i < 2
+            x = sideways.select(column + step, column).minimum(last[0])
+            y = sideways.select(row, row + step).minimum(last[1])
+            hit = load(status, lane_of(builder, x, y)).ne(MISS)
+            return across | (hit & sideways), down | (hit & ~sideways)
+
+        no = constant(False, BOOL)
+        return for_(4, one, no, no)
 
     def _listed(self, name: str, level: int, type_: Type = U32) -> Value:
         """An entry of a list that a level reads; the first one at all others."""

@@ -81,6 +81,13 @@ def pixel_place(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:
     return column, (tile_row << 3) + ((lane >> 5) & 1) * 4 + ((lane >> 2) & 3)
 
 
+def lane_of(builder: KernelBuilder, column: Value, row: Value) -> Value:
+    """The lane of a pixel, which is in the frame."""
+    tile = (row >> 3) * builder.uniform("columns", row.type) + (column >> 3)
+    block = (((row >> 2) & 1) << 1) + ((column >> 2) & 1)
+    return (tile << 6) + (block << 4) + ((row & 3) << 2) + (column & 3)
+
+
 class Beside(NamedTuple):
     """The pixel on one side of a lane's own, as far as the frame reaches.
 

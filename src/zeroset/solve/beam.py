@@ -13,7 +13,7 @@ is not yet the end: beside an ordinary silhouette it is passed over.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import partial, reduce
 from typing import Any, NamedTuple
 
 from zeroset.arith import Dual, DualSystem, IntervalSystem
@@ -80,6 +80,25 @@ PATIENCE = 200
 """Evaluations that a beam may cost."""
 EARLY = 64.0
 """Finest steps from which on a stretch is asked whether the surface there is an ordinary one."""
+STEEPEST = 1e30
+"""Size of a derivative that is not known yet."""
+
+
+class Ordinary(NamedTuple):
+    """What f's derivatives across a patch are like beside an ordinary silhouette: one of them keeps its sign.
+
+    In a neck that widens, f grows along it, and one keeps its sign, too. But it is small beside the other one, and the
+    pixels in whose direction f changes most have met nothing.
+
+    Attributes:
+        steadiness: the share of the other one that it is never below.
+        across: whether a ray beside the patch, in the direction of u, has met something: then it may be smaller.
+        down: the same in the direction of v.
+    """
+
+    steadiness: Value
+    across: Value
+    down: Value
 
 
 class Beam(NamedTuple):
@@ -100,12 +119,15 @@ class Beam(NamedTuple):
     steps: Value
 
 
-def trace_beam(patch: Patch, near: Value, far: Value, step: Value, finest: Value, aiming: Value, unsure: Value) -> Beam:
+def trace_beam(
+    patch: Patch, near: Value, far: Value, step: Value, finest: Value, aiming: Value, unsure: Value, ordinary: Ordinary
+) -> Beam:
     """Stride along a beam until a step of ``finest`` cannot be excluded, or holds a thin part.
 
     Who aims stops there. Who looks for thin parts asks the derivatives of f across the patch: near an ordinary
     silhouette one of them keeps its sign, mostly over a long stretch, and the patch is left to its rays there; where
-    both may vanish, down to a step of ``finest``, f has an extremum near zero inside, which is what a thin part is.
+    both may vanish, down to a step of ``finest``, f has an extremum near zero inside, which is what a thin part is. In
+    a neck that widens f grows along it, and one keeps its sign too; but there it is small beside the other one.
 
     Args:
         patch: the beam's rays.
@@ -115,6 +137,7 @@ def trace_beam(patch: Patch, near: Value, far: Value, step: Value, finest: Value
         finest: the shortest step worth trying.
         aiming: whether the beam is to say where rays may start.
         unsure: lanes that have found something when their patience ends, wherever they are.
+        ordinary: what the derivatives are like beside an ordinary silhouette.
     """
 
     def running(a: Value, h: Value, found: Value, count: Value) -> Value:
@@ -125,7 +148,7 @@ def trace_beam(patch: Patch, near: Value, far: Value, step: Value, finest: Value
         point, t = patch.over(a, b)
         excluded = patch.excludes(point)
         asked = ~excluded & ~aiming & (h <= finest * EARLY)
-        (flat,) = if_(asked, lambda: (_flat_across(patch, point, t),), lambda: (True,))
+        (flat,) = if_(asked, lambda: (_flat_across(patch, point, t, ordinary),), lambda: (True,))
         passed = excluded | ~flat
         end = ~passed & (h <= finest)
         return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), end, count + 1
@@ -151,32 +174,48 @@ def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Va
     return Beam(found, a, h, a + h * 0.5, count)
 
 
-def _flat_across(patch: Patch, point: Sequence[Any], t: Any) -> Value:
-    """Whether both derivatives of f across the pixel may vanish at this t, for any f that may have a root there.
+def _flat_across(patch: Patch, point: Sequence[Any], t: Any, ordinary: Ordinary) -> Value:
+    """Whether f may be flat across the patch at this t, for any f that may have a root there.
 
-    They are the same code for u and for v, so it is there once and runs twice: a formula's derivative is most of the
-    kernel, and the time to compile grows with the text.
+    It is not where the two derivatives are as beside an ordinary silhouette. They are the same code for u and for v, so
+    it is there once and runs twice: a formula's derivative is most of the kernel, and the time to compile grows with
+    the text.
     """
-    fields = list(patch.subject.fields())
+    fields, kind = list(patch.subject.fields()), patch.subject.type
 
     def narrow(symbol: Value, *so_far: Value) -> tuple[Value, ...]:
-        return tuple(
-            if_(flat, partial(_may_vanish, patch, lowered, t, symbol), lambda: (False,))[0]
-            for flat, (_, _, lowered) in zip(so_far, fields, strict=True)
-        )
+        states = [_Across(*so_far[i : i + 3]) for i in range(0, len(so_far), 3)]
+        looks = [partial(_narrowed, patch, lowered, t, symbol, ordinary) for _, _, lowered in fields]
+        ends = [if_(s.flat, partial(look, s), partial(tuple, s)) for s, look in zip(states, looks, strict=True)]
+        return tuple(value for end in ends for value in end)
 
     if patch.subject.shape.plain:
-        (flat,) = for_(2, narrow, constant(True, BOOL))
-        return flat
-    open_ = [~(patch.clears(body, point) | body.free(leaf, patch.system, point)) for body, leaf, _ in fields]
-    flat, *others = for_(2, narrow, *open_)
-    for other in others:
-        flat = flat | other
-    return flat
+        open_ = [constant(True, BOOL)]
+    else:
+        open_ = [~(patch.clears(body, point) | body.free(leaf, patch.system, point)) for body, leaf, _ in fields]
+    start = [value for flat in open_ for value in (flat, constant(0.0, kind), constant(STEEPEST, kind))]
+    ends = for_(2, narrow, *start)
+    return reduce(lambda a, b: a | b, ends[::3])
 
 
-def _may_vanish(patch: Patch, lowered: Lowered, t: Any, symbol: Value) -> tuple[Value]:
-    """Whether the derivative of f along one symbol of the patch, 0 or 1, may vanish at this t."""
+class _Across(NamedTuple):
+    """What is known of f's derivatives across a patch.
+
+    Attributes:
+        flat: whether f may be flat.
+        least: the least size of the derivative that was looked at last.
+        most: its largest size.
+    """
+
+    flat: Value
+    least: Value
+    most: Value
+
+
+def _narrowed(
+    patch: Patch, lowered: Lowered, t: Any, symbol: Value, ordinary: Ordinary, state: _Across
+) -> tuple[Value, Value, Value]:
+    """What is known once the derivative of f along a symbol of the patch, 0 or 1, has been looked at as well."""
     dual = DualSystem(patch.system, 1)
 
     def across(base: Any) -> Any:
@@ -187,5 +226,12 @@ def _may_vanish(patch: Patch, lowered: Lowered, t: Any, symbol: Value) -> tuple[
         return Dual(dual, base, (patch.system.exact(symbol.eq(0).select(along_u, along_v)),))
 
     moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
+    slope = lowered.evaluate(dual, *moved).derivative(0).interval()
     # Where f is constant piece by piece, its derivative is a literal.
-    return (lift(lowered.evaluate(dual, *moved).derivative(0).contains_zero(), BOOL),)
+    low, high = (lift(end, lowered.type) for end in (slope.lo, slope.hi))
+    least, most = low.maximum(-high).maximum(0.0), high.maximum(-low)
+    steady = (least > 0.0) & (least >= ordinary.steadiness * state.most)
+    before = (state.least > 0.0) & (state.least >= ordinary.steadiness * most)
+    beside = (most > state.most).select(ordinary.down, ordinary.across)
+    met = symbol.ne(0) & beside & ((least > 0.0) | (state.least > 0.0))
+    return ~(steady | before | met), least, most

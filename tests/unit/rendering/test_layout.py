@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from zeroset.kernel import F32, U32, KernelBuilder, if_, interp, store
-from zeroset.rendering.layout import TILE, Beside, Layout, pixel_coordinates, pixel_place
+from zeroset.rendering.layout import TILE, Beside, Layout, lane_of, pixel_coordinates, pixel_place
 
 SIZES = [(1, 1), (7, 5), (8, 8), (9, 8), (513, 31), (64, 48)]
 
@@ -34,6 +34,17 @@ def test_every_pixel_is_one_lane(size: tuple[int, int]) -> None:
     seen = found["row"][inside].astype(int) * layout.width + found["column"][inside]
     assert np.array_equal(np.sort(seen), np.arange(layout.width * layout.height))
     assert layout.lanes < (layout.width + TILE) * (layout.height + TILE)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_pixels_lane_is_the_one_with_its_place(size: tuple[int, int]) -> None:
+    layout = Layout(*size)
+    with KernelBuilder("lanes") as builder:
+        lane = builder.index()
+        store(builder.buffer("lane", U32, writable=True), lane, lane_of(builder, *pixel_place(builder, lane)))
+    lanes = np.zeros(layout.lanes, np.uint32)
+    interp.run(builder.kernel, layout.lanes, layout.uniforms(), {"lane": lanes})
+    assert np.array_equal(lanes, np.arange(layout.lanes))
 
 
 @pytest.mark.parametrize("size", SIZES)

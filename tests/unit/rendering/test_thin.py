@@ -68,6 +68,21 @@ def test_thin_parts_show_the_side_that_the_rays_beside_them_are_on(name: str, ou
     assert np.mean(along * outside <= 1e-6) >= (1.0 if device == "cpu" else 0.8)
 
 
+@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize("size", [200, 333, 512])
+def test_a_neck_thinner_than_a_pixel_has_no_gap(size: int, device: str) -> None:
+    """Along it f grows in every point of a pixel, as it does beside a silhouette."""
+    rows = zs.render(zs.gallery["kiss"], size, device=device).aov("status").any(axis=1)
+    first, *_, last = np.flatnonzero(rows)
+    assert last - first > size // 2
+    assert rows[first : last + 1].all()
+
+
+@pytest.mark.parametrize("name", ["tangle", "clebsch", "torus", "chmutov-12"])
+def test_beside_silhouettes_nothing_is_thin(name: str) -> None:
+    assert zs.render(zs.gallery[name], 200, device="cpu").unresolved == 0
+
+
 @pytest.mark.parametrize("name", ["heart", "heart-nordstrand"])
 def test_normals_are_smooth_where_the_gradient_vanishes(name: str) -> None:
     surface = zs.gallery[name]
