@@ -22,7 +22,7 @@ def draw(state: State, context: Context) -> State:
         imgui.text_disabled("none: write a letter such as a into the formula")
     for name in names:
         imgui.push_id(f"{item.key} {name}")
-        item = _row(item, imgui, name)
+        item = _row(item, context, name)
         imgui.pop_id()
     arrays = ", ".join(f"{name} ({len(values)})" for name, values in item.surface.arrays.items())
     if arrays:
@@ -30,7 +30,8 @@ def draw(state: State, context: Context) -> State:
     return state if item is state.item else state.with_item(item)
 
 
-def _row(item: Item, imgui: Any, name: str) -> Item:
+def _row(item: Item, context: Context, name: str) -> Item:
+    imgui: Any = context.imgui
     motion = item.motions.get(name, Motion())
     if imgui.button(PAUSE if motion.playing else PLAY, (28.0, 0.0)):
         item = with_motion(item, name, replace(motion, playing=not motion.playing))
@@ -50,20 +51,24 @@ def _row(item: Item, imgui: Any, name: str) -> Item:
         imgui.open_popup("range")
     imgui.set_item_tooltip("range and speed")
     if imgui.begin_popup("range"):
-        item = _popup(item, imgui, name)
+        item = _popup(item, context, name)
         imgui.end_popup()
     return item
 
 
-def _popup(item: Item, imgui: Any, name: str) -> Item:
+def _popup(item: Item, context: Context, name: str) -> Item:
     """The range, and how it plays."""
+    imgui: Any = context.imgui
     span, motion = span_of(item, name), item.motions.get(name, Motion())
     imgui.set_next_item_width(120.0)
     low_changed, low = imgui.input_float("lowest", span.low, 0.0, 0.0, "%.6g")
     imgui.set_next_item_width(120.0)
     high_changed, high = imgui.input_float("highest", span.high, 0.0, 0.0, "%.6g")
     if low_changed or high_changed:
-        item = with_span(item, name, float(low), float(high))
+        asked = with_span(item, name, float(low), float(high))
+        if asked is item:
+            context.session.notes.say(f"the range of {name} stays: its lowest must be below its highest")
+        item = asked
     imgui.set_next_item_width(120.0)
     changed, seconds = imgui.slider_float(
         "seconds one way", motion.seconds, 0.5, 60.0, "%.1f", imgui.SliderFlags_.logarithmic
