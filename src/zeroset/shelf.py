@@ -12,7 +12,7 @@ from zeroset.scene.light import Material
 from zeroset.scene.solid import Solid
 from zeroset.scene.solid_text import parse_solid
 from zeroset.scene.surface import Surface, surface
-from zeroset.surfaces import BallBounds, BoxBounds, GalleryEntry, SolidEntry, View, entry, names, solids
+from zeroset.surfaces import BallBounds, BoxBounds, GalleryEntry, SolidEntry, View, entry, names, solid_names, solids
 
 
 class Gallery(Mapping[str, Surface]):
@@ -47,7 +47,7 @@ class Gallery(Mapping[str, Surface]):
 
     def find(self, name: str) -> Surface | Solid:
         """The surface or the solid of that name; raises ``UnknownSurfaceError`` where there is none."""
-        return self.solids[name] if name in solids() else self[name]
+        return self.solids[name] if name in solid_names() else self[name]
 
     def __repr__(self) -> str:
         return f"<zeroset.gallery of {len(self)} surfaces>"
@@ -66,19 +66,19 @@ class _Solids(Mapping[str, Solid]):
         found = solids().get(name)
         if found is None:
             raise UnknownSurfaceError(
-                f"the gallery has no solid {name!r}", hints=(*did_you_mean(str(name), solids()), *_listed())
+                f"the gallery has no solid {name!r}", hints=(*did_you_mean(str(name), solid_names()), *_listed())
             )
         return from_solid(found)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(solids())
+        return iter(solid_names())
 
     def __len__(self) -> int:
-        return len(solids())
+        return len(solid_names())
 
 
 def _listed() -> tuple[str, ...]:
-    return (f"it has {', '.join(solids())}",)
+    return (f"it has {', '.join(solid_names())}",)
 
 
 def from_solid(item: SolidEntry) -> Solid:

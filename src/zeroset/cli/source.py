@@ -46,9 +46,9 @@ def _named(name: str, values: dict[str, Any]) -> Scene | None:
     from zeroset.errors import UnknownSurfaceError
     from zeroset.expr import VARIABLES
     from zeroset.shelf import gallery
-    from zeroset.surfaces import solids
+    from zeroset.surfaces import solid_names
 
-    if name in solids():
+    if name in solid_names():
         return Scene(gallery.solids[name])
     try:
         return Scene(gallery[name])

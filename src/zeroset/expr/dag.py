@@ -18,6 +18,7 @@ from zeroset.errors import FormulaError
 from zeroset.expr.facts import CONDITION, NONNEGATIVE, POSITIVE, TOTAL, check_kinds, flags_of
 from zeroset.expr.operators import Operators
 from zeroset.expr.ops import OPS
+from zeroset.hashes import blake2b
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -244,9 +245,7 @@ def _symbols_of_leaf(op: str, data: Data) -> frozenset[Symbol]:
 
 def _hash(part: Expr) -> bytes:
     """Hash of a node whose arguments have theirs."""
-    import hashlib
-
-    content = hashlib.blake2b(repr((part.op, part.data)).encode(), digest_size=16)
+    content = blake2b(repr((part.op, part.data)).encode(), digest_size=16)
     for arg in part.args:
         content.update(arg._digest or b"")
     return content.digest()

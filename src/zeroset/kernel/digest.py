@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 from typing import TYPE_CHECKING
+
+from zeroset.hashes import hexdigest
 
 if TYPE_CHECKING:
     from zeroset.kernel.build import Kernel
@@ -28,7 +29,7 @@ def digest_of(kernel: Kernel) -> str:
     _block(kernel.body, parts, _Numbers())
     # repr puts each text between quotes: with the counts before all that may be longer or shorter, no two kernels
     # give one text.
-    return hashlib.sha256(repr(parts).encode()).hexdigest()
+    return hexdigest(repr(parts))
 
 
 class _Numbers(dict[int, int]):

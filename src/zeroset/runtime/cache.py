@@ -12,16 +12,16 @@ switches the cache off, and ``status`` says why. Files appear whole, by a rename
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import os
 import sys
 import time
 from pathlib import Path
 from typing import NamedTuple
 
+from zeroset.hashes import digest, hexdigest
 from zeroset.runtime.compiled import Compiled
 
-_MAGIC = b"zeroset program 1\n"
+_MAGIC = b"zeroset program 2\n"
 _LIMIT = 256 << 20
 _STALE = 3600.0
 _SWEEP = 3600.0
@@ -119,7 +119,7 @@ class Cache:
 
     def _path(self, key: str, suffix: str) -> Path:
         assert self._folder is not None
-        return self._folder / f"{hashlib.sha256(key.encode()).hexdigest()[:40]}.{suffix}"
+        return self._folder / f"{hexdigest(key)[:40]}.{suffix}"
 
     def _read(self, key: str, suffix: str) -> bytes | None:
         if not self.usable:
@@ -130,7 +130,7 @@ class Cache:
         except OSError:
             return None
         body = data[len(_MAGIC) + 32 :]
-        if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(body).digest() != data[len(_MAGIC) : len(_MAGIC) + 32]:
+        if data[: len(_MAGIC)] != _MAGIC or digest(body) != data[len(_MAGIC) : len(_MAGIC) + 32]:
             _unlink(path)
             return None
         with contextlib.suppress(OSError):
@@ -140,7 +140,7 @@ class Cache:
     def _write(self, key: str, suffix: str, body: bytes) -> None:
         if not self.usable:
             return
-        data = _MAGIC + hashlib.sha256(body).digest() + body
+        data = _MAGIC + digest(body) + body
         try:
             _write_whole(self._path(key, suffix), data)
             self._write_error = ""

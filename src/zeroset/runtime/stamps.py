@@ -6,10 +6,11 @@ start must not pay for what it does not use.
 
 from __future__ import annotations
 
-import hashlib
 import os
 from functools import lru_cache
 from importlib.util import find_spec
+
+from zeroset.hashes import hexdigest
 
 _CPU_LINES = ("vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU ")
 
@@ -34,7 +35,7 @@ def source_stamp() -> str:
                     found.append(f"{entry.path} {stat.st_size} {stat.st_mtime_ns}")
                 elif entry.is_dir() and entry.name != "__pycache__":
                     folders.append(entry.path)
-    return hashlib.sha256("\n".join(sorted(found)).encode()).hexdigest()
+    return hexdigest("\n".join(sorted(found)))
 
 
 def cpu_stamp() -> str:

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 
 from zeroset.surfaces.chebyshev import LEAST_ORDER, MOST_ORDER, chmutov_of_order
 from zeroset.surfaces.entry import BallBounds, BoxBounds, GalleryEntry, SolidEntry, SolidPart, Source, View
-from zeroset.surfaces.load import family, index, solids
+from zeroset.surfaces.load import family, index, solid_names, solids
 
 if TYPE_CHECKING:
     from typing import NoReturn
@@ -36,6 +36,7 @@ __all__ = [
     "chmutov",
     "entry",
     "names",
+    "solid_names",
     "solids",
 ]
 
@@ -65,7 +66,7 @@ def entry(name: str) -> GalleryEntry:
     order = name.removeprefix(_CHMUTOV)
     if order != name and order.isascii() and order.isdecimal() and len(order) <= 9 and order == str(int(order)):
         return chmutov(int(order))
-    if name in solids():
+    if name in solid_names():
         _no_surface(name)
     _unknown(name)
 
@@ -104,5 +105,5 @@ def _unknown(name: str) -> NoReturn:
 
     raise UnknownSurfaceError(
         f'the gallery has no surface "{name[:80]}"',
-        hints=(*did_you_mean(name, (*names(), *solids())), "zeroset gallery lists all names"),
+        hints=(*did_you_mean(name, (*names(), *solid_names())), "zeroset gallery lists all names"),
     )

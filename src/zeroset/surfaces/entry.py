@@ -6,9 +6,8 @@ parsing of formulas. The package root turns an entry into a surface when someone
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,32 +18,25 @@ Vector = tuple[float, float, float]
 """Three coordinates x, y, z."""
 
 
-def _no_params() -> Mapping[str, float]:
-    return MappingProxyType({})
+_NO_PARAMS: Mapping[str, float] = MappingProxyType({})
+_NO_ARRAYS: Mapping[str, tuple[float, ...]] = MappingProxyType({})
 
 
-def _no_arrays() -> Mapping[str, tuple[float, ...]]:
-    return MappingProxyType({})
-
-
-@dataclass(frozen=True)
-class BallBounds:
+class BallBounds(NamedTuple):
     """The part of the surface inside a ball is shown."""
 
     center: Vector
     radius: float
 
 
-@dataclass(frozen=True)
-class BoxBounds:
+class BoxBounds(NamedTuple):
     """The part of the surface inside an axis-parallel box is shown, from `min` to `max`."""
 
     min: Vector
     max: Vector
 
 
-@dataclass(frozen=True)
-class View:
+class View(NamedTuple):
     """A perspective camera at `eye` looking at `target`; `fov` is the vertical opening in degrees."""
 
     eye: Vector
@@ -53,8 +45,7 @@ class View:
     fov: float
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """Where an equation is printed.
 
     Attributes:
@@ -68,8 +59,7 @@ class Source:
     figures: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class GalleryEntry:
+class GalleryEntry(NamedTuple):
     """One surface of the gallery.
 
     Attributes:
@@ -92,13 +82,12 @@ class GalleryEntry:
     camera: View
     degree: int
     source: tuple[Source, ...]
-    params: Mapping[str, float] = field(default_factory=_no_params)
-    arrays: Mapping[str, tuple[float, ...]] = field(default_factory=_no_arrays)
+    params: Mapping[str, float] = _NO_PARAMS
+    arrays: Mapping[str, tuple[float, ...]] = _NO_ARRAYS
     note: str = ""
 
 
-@dataclass(frozen=True)
-class SolidPart:
+class SolidPart(NamedTuple):
     """One surface of a solid, which stands for f <= 0.
 
     Attributes:
@@ -111,11 +100,10 @@ class SolidPart:
     formula: str
     front: Vector
     back: Vector
-    params: Mapping[str, float] = field(default_factory=_no_params)
+    params: Mapping[str, float] = _NO_PARAMS
 
 
-@dataclass(frozen=True)
-class SolidEntry:
+class SolidEntry(NamedTuple):
     """One solid of the gallery.
 
     Attributes:

@@ -7,7 +7,6 @@ code (``ZEROSET_CACHE_DIR``; none with ``ZEROSET_CACHE=0``).
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import os
 import threading
 import time
@@ -20,6 +19,7 @@ import numpy.typing as npt
 from zeroset import __version__
 from zeroset.atomic import replacing
 from zeroset.errors import ZerosetError
+from zeroset.hashes import hexdigest
 from zeroset.surfaces import entry
 
 Pixels = npt.NDArray[np.uint8]
@@ -67,7 +67,7 @@ def _path(name: str) -> Path | None:
         return None
     # What decides the picture decides the name: a changed entry gets a new one.
     key = f"{__version__} {SIDE} {entry(name)!r}"
-    return place / f"{name}-{hashlib.sha256(key.encode()).hexdigest()[:16]}.png"
+    return place / f"{name}-{hexdigest(key)[:16]}.png"
 
 
 def load(name: str) -> Pixels | None:

@@ -7,7 +7,6 @@ the same buffers.
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
@@ -18,6 +17,7 @@ import numpy as np
 from zeroset.errors import CameraError, ParameterError, ZerosetError, did_you_mean
 from zeroset.export.film.camera_path import Keys, turned
 from zeroset.export.film.path import Moment, Path, as_path
+from zeroset.hashes import SIZE, blake2b
 from zeroset.scene.bounds import Ball, Bounds, number
 from zeroset.scene.camera import Camera, fit_camera
 from zeroset.scene.pictures import picture_bytes
@@ -178,7 +178,7 @@ def digest(scenes: Sequence[Scene]) -> str:
     from zeroset.scene.file import dumps
 
     # The first scene in full holds what is common to all; the others differ in values and cameras alone.
-    made = hashlib.sha256(dumps(scenes[0]).encode(errors="surrogateescape"))
+    made = blake2b(dumps(scenes[0]).encode(errors="surrogateescape"), digest_size=SIZE)
     # The scene names its pictures; frames depend on what is in them.
     around = scenes[0].environment
     for path in () if around is None else around.files():
