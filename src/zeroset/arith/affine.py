@@ -187,14 +187,24 @@ class Affine(Number):
 
     def contains_zero(self) -> Mask:
         """False only where f certainly has no zero; true for a form that overflowed."""
+        excluded = or_(*self.signs(), self.empty)
+        return not_(excluded if self.bounds is None else or_(excluded, self.bounds.empty))
+
+    def signs(self) -> tuple[Mask, Mask]:
+        """Whether f is certainly above 0, and whether it is certainly below.
+
+        The ends of ``interval`` are rounded once more, and may not tell where these do.
+        """
         if self._system.curved:
             low, high = self.form_range()
-            excluded = or_(or_(gt(low, 0.0), lt(high, 0.0)), self.empty)
+            above, below = gt(low, 0.0), lt(high, 0.0)
         else:
-            excluded = or_(gt(absolute(self.centre), self.reach()), self.empty)
-        if self.bounds is not None:
-            excluded = or_(excluded, not_(self.bounds.contains_zero()))
-        return not_(excluded)
+            reach = self.reach()
+            above, below = gt(self.centre, reach), lt(self.centre, -reach)
+        if self.bounds is None:
+            return above, below
+        more, less = self.bounds.signs()
+        return or_(above, more), or_(below, less)
 
     def contract(self, symbol: int = 0) -> Contraction:
         """Where along one symbol f can be 0, and whether it certainly changes sign; see ``Contraction``."""

@@ -94,7 +94,11 @@ class Interval(Number):
 
     def contains_zero(self) -> Mask:
         """False only where f certainly has no zero; true for bounds that are NaN."""
-        return not_(or_(gt(self.lo, 0.0), lt(self.hi, 0.0), self.empty))
+        return not_(or_(*self.signs(), self.empty))
+
+    def signs(self) -> tuple[Mask, Mask]:
+        """Whether f is certainly above 0, and whether it is certainly below."""
+        return gt(self.lo, 0.0), lt(self.hi, 0.0)
 
     def interval(self) -> Interval:
         """This interval: the range of a number, on every enclosing system."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from zeroset.expr.build import build, rewrite, sum_over
 from zeroset.expr.constants import enclose
+from zeroset.expr.continuity import continuous
 from zeroset.expr.dag import PI, Expr, constant, node, postorder, rational
 from zeroset.expr.evaluate import Env, evaluate
 from zeroset.expr.names import VARIABLES, variable
@@ -32,6 +33,7 @@ __all__ = [
     "Traced",
     "build",
     "constant",
+    "continuous",
     "degree",
     "enclose",
     "evaluate",

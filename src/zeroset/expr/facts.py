@@ -8,7 +8,7 @@ A sign is a statement about the points where the node is defined.
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from zeroset.errors import FormulaError
 from zeroset.expr.limits import POWER
@@ -32,7 +32,15 @@ _EVEN = range(0, POWER + 1, 2)
 _SIGNS = {"": 0, "nonnegative": NONNEGATIVE, "positive": NONNEGATIVE | POSITIVE}
 
 
-def flags_of(op: str, args: Sequence[Expr], data: Data) -> int:
+class Known(Protocol):
+    """A node, or all that is known of one."""
+
+    @property
+    def flags(self) -> int:
+        """The facts."""
+
+
+def flags_of(op: str, args: Sequence[Known], data: Data) -> int:
     """The facts of a new node, from those of its arguments."""
     if not args:
         return TOTAL | (_sign_of_constant(data[0]) if op == "const" else 0)
@@ -55,19 +63,21 @@ def _sign_of_constant(value: object) -> int:
     return NONNEGATIVE | POSITIVE
 
 
-def _inside_domain(op: str, args: Sequence[Expr]) -> bool:
+def _inside_domain(op: str, args: Sequence[Known]) -> bool:
     """Whether the arguments of a partial function can only lie where it is defined."""
     match op:
         case "sqrt" | "powr":
             return bool(args[0].flags & NONNEGATIVE)
-        case "log" | "pow":
+        case "log":
             return bool(args[0].flags & POSITIVE)
+        case "pow":
+            return bool(args[0].flags & (POSITIVE if not args[1].flags & POSITIVE else NONNEGATIVE))
         case "div" | "mod":
             return bool(args[1].flags & POSITIVE)
     return False
 
 
-def _sign(op: str, args: Sequence[Expr], data: Data) -> int:
+def _sign(op: str, args: Sequence[Known], data: Data) -> int:
     """The sign flags of a new node."""
     first = args[0].flags & (NONNEGATIVE | POSITIVE)
     last = args[-1].flags & (NONNEGATIVE | POSITIVE)

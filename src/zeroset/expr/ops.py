@@ -43,6 +43,7 @@ class Operator(NamedTuple):
             where its first argument is), or `kept` (that of its argument).
         exact: Folds rational arguments, or gives None where the value is irrational.
         values: Exact values at single rational points.
+        jumps: Whether it is not continuous everywhere where it is defined.
     """
 
     name: str
@@ -58,6 +59,7 @@ class Operator(NamedTuple):
     sign: Literal["", "positive", "nonnegative", "magnitude", "kept"] = ""
     exact: Callable[..., Fraction | None] | None = None
     values: Mapping[Fraction | int, int] = MappingProxyType({})
+    jumps: bool = False
 
     @property
     def total(self) -> bool:
@@ -210,15 +212,34 @@ def _rows() -> Iterator[Operator]:
         exact=abs,
     )
     yield row(
-        "sign", 1, call, ("sign", "sgn"), ("sign",), ("sign",), idempotent=True, parity="odd", sign="kept", exact=_sign
+        "sign",
+        1,
+        call,
+        ("sign", "sgn"),
+        ("sign",),
+        ("sign",),
+        idempotent=True,
+        parity="odd",
+        sign="kept",
+        exact=_sign,
+        jumps=True,
     )
-    yield row("floor", 1, call, ("floor",), ("floor",), ("floor",), idempotent=True, exact=_floor)
-    yield row("ceil", 1, call, ("ceil", "ceiling"), ("ceil",), ("ceiling",), idempotent=True, exact=_ceil)
+    yield row("floor", 1, call, ("floor",), ("floor",), ("floor",), idempotent=True, exact=_floor, jumps=True)
+    yield row("ceil", 1, call, ("ceil", "ceiling"), ("ceil",), ("ceiling",), idempotent=True, exact=_ceil, jumps=True)
     # functions of two arguments; mod(x, y) = x - y*floor(x/y)
     yield row(
-        "atan2", 2, call, ("atan2", "arctan2"), ("arctan2", "atan2"), ("atan2",), defined=lambda y, x: x != 0 or y != 0
+        "atan2",
+        2,
+        call,
+        ("atan2", "arctan2"),
+        ("arctan2", "atan2"),
+        ("atan2",),
+        defined=lambda y, x: x != 0 or y != 0,
+        jumps=True,
     )
-    yield row("mod", 2, call, ("mod",), ("remainder", "mod"), ("Mod",), defined=lambda x, y: y != 0, exact=_mod)
+    yield row(
+        "mod", 2, call, ("mod",), ("remainder", "mod"), ("Mod",), defined=lambda x, y: y != 0, exact=_mod, jumps=True
+    )
     yield row("min", 2, call, ("min",), ("minimum", "fmin"), ("Min",), commutative=True, exact=min)
     yield row("max", 2, call, ("max",), ("maximum", "fmax"), ("Max",), commutative=True, exact=max)
     # conditions, and the choice between two numbers by one
@@ -228,7 +249,7 @@ def _rows() -> Iterator[Operator]:
     yield row("and", 2, truth, ufuncs=("logical_and", "bitwise_and"), sympy=("And",), commutative=True, idempotent=True)
     yield row("or", 2, truth, ufuncs=("logical_or", "bitwise_or"), sympy=("Or",), commutative=True, idempotent=True)
     yield row("not", 1, truth, ufuncs=("logical_not", "invert"), sympy=("Not",))
-    yield row("select", 3, call, ("if",))
+    yield row("select", 3, call, ("if",), jumps=True)
     # data: (index, *arrays)
     yield row("sum", 1, "sum", ("sum",))
 

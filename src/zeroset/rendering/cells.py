@@ -125,8 +125,8 @@ class Cells:
 
     def ordinary(self) -> Ordinary:
         """What f's derivatives across a lane's patch are like beside an ordinary silhouette."""
-        beside = if_(self.level >= IN_PIXELS, self._hits_beside, lambda: (False, False))
-        return Ordinary(self._number(STEADINESS), *beside)
+        across, down = if_(self.level >= IN_PIXELS, self._hits_beside, lambda: (False, False))
+        return Ordinary(self._number(STEADINESS), across, down, self.level.eq(IN_PARTS))
 
     def _hits_beside(self) -> tuple[Value, ...]:
         """Whether the ray of a pixel to the left or right of a lane's has met something, and one above or below."""

@@ -47,7 +47,9 @@ def layer_kernel(shape: Shape, method: Method, pixels: bool, second: bool) -> Ke
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
-        search = _Search(subject, lambda body: problem_on(body, ray, near.maximum(start), far, None), method.trace)
+        search = _Search(
+            subject, lambda body: problem_on(body, ray, near.maximum(start), far, None, not pixels), method.trace
+        )
         # Where f64 cannot tell whether what touches a hit is a second one, it stays unresolved.
         former = None if second else load(builder.buffer(FORMER, U32), lane)
         answer, merged, begin = beyond(search, start, former)
@@ -71,7 +73,9 @@ def second_layer_kernel(shape: Shape, offset: bool, pixels: bool) -> Kernel:
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
         search = _Search(
-            subject, lambda body: in_doubles(problem_on(body, ray, near.maximum(start), far, None), clear), stride
+            subject,
+            lambda body: in_doubles(problem_on(body, ray, near.maximum(start), far, None, not pixels), clear),
+            stride,
         )
         answer, _, _ = beyond(search, start)
         write(builder, subject, lane, exact_ray(ray), answer)

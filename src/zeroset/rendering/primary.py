@@ -44,7 +44,9 @@ def given_ray(builder: KernelBuilder, lane: Value) -> Ray:
     return Ray(origin, direction)
 
 
-def problem_on(body: LoweredBody, ray: Ray, near: Value, far: Value, step: Value | None) -> Problem:
+def problem_on(
+    body: LoweredBody, ray: Ray, near: Value, far: Value, step: Value | None, strict: bool = False
+) -> Problem:
     """The search inside the bounds, from near to far; a step of an eighth of the stretch where none is given."""
     builder = body.builder
     t0, t1 = clip(builder, body.body.kind, ray.origin, ray.direction, body.body.prefix)
@@ -53,7 +55,7 @@ def problem_on(body: LoweredBody, ray: Ray, near: Value, far: Value, step: Value
     resolution = abs(t0).maximum(abs(t1)) * RESOLUTION
     tolerance = _asked(builder, ray).maximum(resolution)
     step = (t1 - t0) * 0.125 if step is None else step
-    return Problem(body.first, ray, t0, t1, tolerance, step, None if body.body.plain else body)
+    return Problem(body.first, ray, t0, t1, tolerance, step, None if body.body.plain else body, strict)
 
 
 def _asked(builder: KernelBuilder, ray: Ray) -> Value:
@@ -95,7 +97,7 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
             tile = tile_of(lane)
             near = load(builder.buffer("tile_start", F32), tile)
             step = load(builder.buffer("tile_step", F32), tile)
-        answer = subject.nearest(lambda body: problem_on(body, ray, near, far, step), method.trace)
+        answer = subject.nearest(lambda body: problem_on(body, ray, near, far, step, not pixels), method.trace)
         if method.certified:
             answer = as_fine_as_asked(builder, ray, answer)
         write(builder, subject, lane, ray, answer, ends)
@@ -114,7 +116,9 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), bea
         subject = Subject(shape, builder, F64, offset)
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
-        answer = subject.nearest(lambda body: in_doubles(problem_on(body, ray, near, far, None), clear), stride)
+        answer = subject.nearest(
+            lambda body: in_doubles(problem_on(body, ray, near, far, None, not pixels), clear), stride
+        )
         # What f32 has proven stays. Even where f64 leaves it open, it comes closer to a double root than f32 could.
         proven = load(builder.buffer("status", U32, writable=True), lane).eq(HIT)
         spent = load(builder.buffer("steps", U32, writable=True), lane) + answer.steps
@@ -149,4 +153,4 @@ def in_doubles(rough: Problem, clear: Value) -> Problem:
     earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
     start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
     # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
-    return Problem(rough.lowered, ray, start, end, tolerance * FINER, tolerance * 4.0, rough.body)
+    return Problem(rough.lowered, ray, start, end, tolerance * FINER, tolerance * 4.0, rough.body, rough.strict)

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from zeroset.errors import FormulaLimitError
-from zeroset.expr import OPS, Expr, degree, evaluate, numerator, postorder
+from zeroset.expr import OPS, Expr, continuous, degree, evaluate, numerator, postorder
 from zeroset.scene.parameters import TIME
 
 MOST_WORK = 4000
@@ -45,6 +45,11 @@ class ExprField:
     def highest_power(self) -> int:
         """The largest whole exponent in f as it is written."""
         return max((abs(int(part.data[0])) for part in postorder(self.expr) if part.op == "powi"), default=1)
+
+    @cached_property
+    def continuous(self) -> bool:
+        """Whether f has no jumps, poles and ends of its domain where its parameters are positive."""
+        return self.degree is not None or continuous(self.expr)
 
     @cached_property
     def numerator(self) -> ExprField | None:

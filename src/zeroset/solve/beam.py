@@ -54,6 +54,19 @@ class Patch(NamedTuple):
             excluded = excluded & self.clears(body, point)
         return excluded
 
+    def hazy(self, point: Sequence[Any], wanted: Value) -> Value:
+        """Whether f jumps or has no value near these points, where enclosures are too wide to tell of thin parts."""
+        bodies = [body for body in self.subject.bodies if not body.body.continuous]
+        if not bodies:
+            return constant(False, BOOL)
+        system, box = IntervalSystem(self.system.fmt), [_around(p.interval()) for p in point]
+
+        def near() -> tuple[Value]:
+            return (reduce(lambda a, b: a | b, [body.jumps(system, box) for body in bodies]),)
+
+        (found,) = if_(wanted, near, lambda: (False,))
+        return found
+
     def excludes_well(self, point: Sequence[Any]) -> Value:
         """``excludes``, by intervals too.
 
@@ -76,6 +89,15 @@ class Patch(NamedTuple):
         return body.excludes(self.system, point) | self.outside(body.body, point)
 
 
+def _around(interval: Any) -> Any:
+    """An interval so much wider that what is next to it is in it, too."""
+    middle, half = (interval.lo + interval.hi) * 0.5, (interval.hi - interval.lo) * (0.5 * NEAR)
+    return interval.make(middle - half, middle + half)
+
+
+NEAR = 12.0
+"""Widths of a part of a pixel, some three pixels, that are near a place where f has no value: there a quotient such as
+sin(x)/x is enclosed too widely, however narrow the part is."""
 PATIENCE = 200
 """Evaluations that a beam may cost."""
 EARLY = 64.0
@@ -94,11 +116,13 @@ class Ordinary(NamedTuple):
         steadiness: the share of the other one that it is never below.
         across: whether a ray beside the patch, in the direction of u, has met something: then it may be smaller.
         down: the same in the direction of v.
+        last: whether nobody looks closer: then what is near a place where f jumps or has no value is left to the rays.
     """
 
     steadiness: Value
     across: Value
     down: Value
+    last: Value
 
 
 class Beam(NamedTuple):
@@ -147,6 +171,7 @@ def trace_beam(
         b = a + h
         point, t = patch.over(a, b)
         excluded = patch.excludes(point)
+        excluded = excluded | patch.hazy(point, ~excluded & ordinary.last & (h <= finest))
         asked = ~excluded & ~aiming & (h <= finest * EARLY)
         (flat,) = if_(asked, lambda: (_flat_across(patch, point, t, ordinary),), lambda: (True,))
         passed = excluded | ~flat
@@ -166,7 +191,9 @@ def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Va
 
     def turn(a: Value, h: Value, found: Value, count: Value) -> tuple[Value, ...]:
         b = a + h
-        excluded = patch.excludes_well(patch.over(a, b)[0])
+        point = patch.over(a, b)[0]
+        excluded = patch.excludes_well(point)
+        excluded = excluded | patch.hazy(point, ~excluded & (h <= finest))
         left = ~excluded & (h <= finest)
         return excluded.select(b, a), excluded.select(h * 2.0, (h * 0.5).maximum(finest)), left, count + 1
 

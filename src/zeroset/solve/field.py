@@ -41,6 +41,10 @@ class Field(Protocol):
         """The largest whole exponent in f as it is written; 1 where there is none."""
 
     @property
+    def continuous(self) -> bool:
+        """Whether f is likely to be defined and continuous everywhere; nothing that is proven rests on it."""
+
+    @property
     def numerator(self) -> Field | None:
         """Another function, 0 wherever f is, that is defined where f has a pole; None where f has none."""
 

@@ -61,7 +61,10 @@ def read(problem: Problem, f: Any, over: Interval) -> Look:
     one = problem.number(1.0)
     bounds = f.interval()
     width = problem.lift(bounds.hi) - problem.lift(bounds.lo)
-    sign = (problem.lift(bounds.lo) > 0.0).select(one, -one)
+    # Whatever has excluded 0 tells the sign: the ends of the range are rounded apart from that. Where f has no value
+    # there is nothing of a solid, and a surface has no sign to be compared with.
+    above, empty = lift(f.signs()[0], BOOL), lift(f.empty, BOOL)
+    sign = empty.select(problem.number(0.0 if problem.hazy and problem.body is None else 1.0), above.select(one, -one))
     if not isinstance(f, AffineForm):
         return Look(excluded, False, f.defined, over.a, over.b, sign, sign, width)
     cut = f.contract()

@@ -32,6 +32,8 @@ class Problem(NamedTuple):
         tolerance: in units of t, at least a few units in the last place of t.
         step: a first guess of a step that might be free of roots.
         body: what is searched where that is more than one f = 0: isovalues, a solid; ``lowered`` is then its first f.
+        strict: whether what f does next to a place where it jumps or has no value must be known, too. Who draws takes
+            it for nothing if f has the same sign on either side.
     """
 
     lowered: Lowered
@@ -41,6 +43,12 @@ class Problem(NamedTuple):
     tolerance: Value
     step: Value
     body: LoweredBody | None = None
+    strict: bool = False
+
+    @property
+    def hazy(self) -> bool:
+        """Whether there may be places that are passed over because f jumps or has no value there."""
+        return not (self.strict or self.field.continuous)
 
     @property
     def field(self) -> Field | Body:

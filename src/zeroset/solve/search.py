@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from zeroset.arith import AffineSystem
-from zeroset.kernel import BOOL, F64, U32, Value, constant, while_
+from zeroset.arith import AffineSystem, IntervalSystem
+from zeroset.kernel import BOOL, F64, U32, Value, constant, if_, lift, while_
 from zeroset.solve.compound import Turn, look_at, note_parts
 from zeroset.solve.look import Interval, Look, read, stretch
 from zeroset.solve.problem import Answer, Problem
@@ -25,6 +25,10 @@ from zeroset.solve.walk import State, Walk
 
 ZONE = 3
 """How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
+NEAR = 16.0
+"""Widths of a narrowest interval that are near a place where f jumps or has no value."""
+HAZE = 48
+"""The same where f may jump or have no value: beside such a place enclosures are wide over many of them."""
 GRAZING = 48
 """Evaluations that getting away from the surface that a ray comes from may take."""
 PATIENCE = 1 << 15
@@ -130,6 +134,30 @@ def search(
     return Answer(t, status, steps, clear, side, end, mark[0] if mark else None, blunt)
 
 
+def _beside_haze(problem: Problem, a: Value, b: Value, wanted: Value) -> Value:
+    """Whether f jumps or has no value within a few widths of [a, b], which makes it enclosed too widely there."""
+    system = IntervalSystem(problem.fmt)
+
+    def near() -> tuple[Value]:
+        over = Interval.between(a, b)
+        t = system.enclose(over.middle, over.half * NEAR)
+        if problem.body is None:
+            return (~lift(problem.lowered.along(system, problem.ray, t).defined, BOOL),)
+        along = [
+            system.exact(o) + system.exact(d) * t
+            for o, d in zip(problem.ray.origin, problem.ray.direction, strict=True)
+        ]
+        return (problem.body.jumps(system, along),)
+
+    (found,) = if_(wanted, near, lambda: (False,))
+    return found
+
+
+def _passed(zone: _Zone, passed: Value) -> _Zone:
+    """The zone, or none where it is passed over."""
+    return zone._replace(length=passed.select(constant(0, U32), zone.length))
+
+
 class _Found(NamedTuple):
     """What a turn found; the rest is where it may begin, the sign before that, where it ends, and how bluntly."""
 
@@ -162,6 +190,11 @@ def _turn(
 
     # A stretch with a certain sign behind the zone closes it: all of [a, b], or [a, left).
     closes = in_zone & ((excluded & ~skipped) | cut)
+    changes = _differ(problem, zone.sign, seen.before)
+    if problem.hazy:
+        # f jumps or has no value in the zone, and the same sign on either side: no surface, and no zone any more.
+        zone, closes = _passed(zone, closes & ~zone.whole & ~changes), closes & (zone.whole | changes)
+        in_zone = zone.length > 0
     joins = narrowest & ~closes
     if passing is not None:
         # A sign that is certain for less than the tolerance may be that beside the surface that the ray comes from.
@@ -169,17 +202,27 @@ def _turn(
         joins = joins & (~begins | proven)
         cut = cut & ~begins
     start = in_zone.select(zone.start, seen.left)
-    whole = (~in_zone | zone.whole) & seen.defined
+    firm = seen.defined
+    if problem.hazy:
+        firm = firm & ~_beside_haze(problem, a, b, joins & firm)
+    whole = (~in_zone | zone.whole) & firm
     sign = cut.select(seen.before, zone.sign)
     # Right of what joins, up to b, the sign may be known as well: then the zone closes at once.
     ends = joins & (seen.right < b)
-    crossed = (closes & _differ(problem, zone.sign, seen.before) & zone.whole) | (
-        ends & _differ(problem, sign, seen.after) & whole
-    )
+    turns = _differ(problem, sign, seen.after)
+    crossed = (closes & changes & zone.whole) | (ends & turns & whole)
+    full = joins & (zone.length >= (HAZE if problem.hazy else ZONE) - 1)
+    if problem.hazy:
+        crossed, passed = crossed & (zone.length < ZONE), ends & ~whole & ~turns
+        ends, full = ends & ~passed, full & ~passed
     hit = crossed | (proven & ~closes)
-    unresolved = (closes | ends | (joins & (zone.length >= ZONE - 1))) & ~hit
+    unresolved = (closes | ends | full) & ~hit
 
-    left_place = walk.leave(problem, place, excluded.select(b, seen.right), narrowest)
+    done = excluded
+    if problem.hazy:
+        # What ends where it began would be looked at for ever.
+        done = done | passed
+    left_place = walk.leave(problem, place, done.select(b, seen.right), narrowest)
     cut_place = walk.narrow(problem, place, seen.left, seen.right)
     moved = tuple((excluded | narrowest).select(x, y) for x, y in zip(left_place, cut_place, strict=True))
 
@@ -193,6 +236,8 @@ def _turn(
         joins.select(start, zone.start),
         joins.select(whole, zone.whole),
     )
+    if problem.hazy:
+        after = _passed(after._replace(sign=passed.select(seen.after, after.sign)), passed)
     # What closes a zone lies behind it; the sign before it was learnt earlier.
     side = closes.select(zone.sign, proven.select(seen.before, sign))
     if zone.mark is not None:

@@ -122,6 +122,11 @@ class Body(NamedTuple):
         return max(leaf.field.highest_power for leaf, _ in self.leaves)
 
     @property
+    def continuous(self) -> bool:
+        """Whether all of its formulas are known to be defined and continuous everywhere."""
+        return all(leaf.field.continuous for leaf, _ in self.leaves)
+
+    @property
     def degree(self) -> int | None:
         """An upper bound of the degree of its formulas; None where one is no polynomial."""
         return _largest([leaf.field.degree for leaf, _ in self.leaves])
@@ -151,6 +156,11 @@ class Shape(NamedTuple):
     def highest_power(self) -> int:
         """The largest whole exponent in any formula."""
         return max(body.highest_power for body in self.bodies)
+
+    @property
+    def continuous(self) -> bool:
+        """Whether all formulas are known to be defined and continuous everywhere."""
+        return all(body.continuous for body in self.bodies)
 
     @property
     def degree(self) -> int | None:

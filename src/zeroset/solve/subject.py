@@ -71,14 +71,23 @@ class LoweredBody:
             result = result & ~lift((f - value).contains_zero(), BOOL)
         return result
 
+    def jumps(self, system: Any, point: Point) -> Value:
+        """Whether a formula of it may jump, or have no value, at any of these points."""
+        result = constant(False, BOOL)
+        for leaf, _ in self.body.leaves:
+            if not leaf.field.continuous:
+                result = result | ~lift(self.leaf(leaf).evaluate(system, *point).defined, BOOL)
+        return result
+
     def _sign(self, tree: Tree, system: Any, point: Point) -> Value:
         """+1 outside, -1 inside, 0 where that is not certain."""
         match tree:
             case Leaf():
                 f = self.leaf(tree).evaluate(system, *point)
                 one = constant(1.0, self.type)
-                low = lift(f.interval().lo, self.type)
-                return lift(f.contains_zero(), BOOL).select(0.0, (low > 0.0).select(one, -one))
+                # What has no value is not <= 0.
+                outside = lift(f.signs()[0], BOOL) | lift(f.empty, BOOL)
+                return lift(f.contains_zero(), BOOL).select(0.0, outside.select(one, -one))
             case Complement():
                 return -self._sign(tree.of, system, point)
             case Join():

@@ -1,0 +1,80 @@
+"""Pictures where f jumps or has no value: nothing is there if f has the same sign on either side."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.gpus import no_gpu
+
+import zeroset as zs
+
+Array = np.ndarray[Any, Any]
+DEVICES = ["cpu", pytest.param("gpu", marks=pytest.mark.skipif(bool(no_gpu()), reason=no_gpu() or "there is one"))]
+SIZE = 96
+CAMERA = zs.Camera(eye=(4.1, -6.2, 3.3), fov=30)
+
+
+def rays() -> tuple[Array, Array]:
+    """The eye, and the directions of the pixels' rays."""
+    eye, _, _, forward, right, up = map(np.array, CAMERA.rays(SIZE, SIZE))
+    middles = (np.arange(SIZE) + 0.5) * 2 / SIZE - 1
+    return eye, forward + middles[None, :, None] * right - middles[:, None, None] * up
+
+
+def seen(formula: str, bounds: Any, device: str = "cpu") -> tuple[zs.Image, Array]:
+    """A picture, and the points that it shows."""
+    image = zs.render(zs.surface(formula, bounds=bounds), SIZE, CAMERA, device=device)
+    eye, ways = rays()
+    return image, (eye + np.nan_to_num(image.aov("t"))[..., None] * ways)[image.aov("status") > 0]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_balls_repeated_by_mod_have_no_walls_between_them(device: str) -> None:
+    formula = "(mod(x,1)-1/2)^2 + (mod(y,1)-1/2)^2 + (mod(z,1)-1/2)^2 = 0.1"
+    image, points = seen(formula, zs.Box((-2, -2, -2), (2, 2, 2)), device)
+    assert image.unresolved == 0
+    assert len(points) > 1000
+    off = np.linalg.norm(points - np.floor(points) - 0.5, axis=1)
+    assert np.abs(off - np.sqrt(0.1)).max() < 2e-3
+    # Rays meet what a ray through 64 balls meets.
+    eye, ways = rays()
+    ways /= np.linalg.norm(ways, axis=-1, keepdims=True)
+    centres = np.stack(np.meshgrid(*[np.arange(-1.5, 2.0)] * 3), axis=-1).reshape(-1, 3) - eye
+    along = ways @ centres.T
+    nearest = np.sqrt(np.maximum((centres**2).sum(1) - along**2, 0)).min(axis=-1)
+    sure = np.abs(nearest - np.sqrt(0.1)) > 1e-3
+    assert np.array_equal((image.aov("status") > 0)[sure], (nearest < np.sqrt(0.1))[sure])
+
+
+@pytest.mark.parametrize("device", DEVICES)
+@pytest.mark.parametrize(
+    ("formula", "bounds", "off"),
+    [
+        ("sqrt(x^2 + y^2) = 1 + 0.3cos(3atan2(y, x))", 2.0, None),
+        ("z = if(|x| < 0.001, 1, sin(x)/x)", 3.0, lambda p: p[:, 2] - np.sinc(p[:, 0] / np.pi)),
+        ("z = x*log(x)", 2.0, lambda p: p[:, 2] - p[:, 0] * np.log(np.maximum(p[:, 0], 1e-9))),
+        ("z = exp(-1/x^2)", 2.0, lambda p: p[:, 2] - np.exp(-1 / p[:, 0] ** 2)),
+        ("log(x) + y = z", 2.0, lambda p: p[:, 2] - p[:, 1] - np.log(p[:, 0])),
+    ],
+)
+def test_nothing_is_drawn_where_f_has_no_value(formula: str, bounds: float, off: Any, device: str) -> None:
+    image, points = seen(formula, bounds, device)
+    assert len(points) > 500
+    assert image.unresolved <= 4
+    if off is None:
+        off = lambda p: np.hypot(p[:, 0], p[:, 1]) - 1 - 0.3 * np.cos(3 * np.arctan2(p[:, 1], p[:, 0]))  # noqa: E731
+    with np.errstate(all="ignore"):
+        assert np.quantile(np.abs(off(points)), 0.995) < 0.02
+
+
+def test_a_jump_with_another_sign_behind_it_is_drawn() -> None:
+    image, _ = seen("z = floor(x)", 2.0)
+    assert image.unresolved > 100
+
+
+def test_rays_of_ones_own_are_not_told_that_there_is_nothing() -> None:
+    """A caller gets what is proven: nothing is known of f right beside x = 0."""
+    hits = zs.cast(zs.surface("z = sin(x)/x", bounds=4), [[-3, 0.2, 2.5], [-3, 0.2, 0.5]], [[1, 0.1, 0], [1, 0, 0]])
+    assert hits.status.tolist() == [zs.UNRESOLVED, zs.HIT]
