@@ -63,3 +63,6 @@ def _tell(made: Mesh, path: Path, spent: float) -> None:
     closed = f"watertight, volume {abs(made.volume):.6g}" if made.watertight else "open"
     size = f"{len(made.vertices):,} vertices, {len(made.faces):,} triangles"
     click.echo(f"{path}: {size}, {closed}, area {made.area:.6g}, {spent * 1e3:.0f} ms")
+    if made.watertight and made.volume < 0:
+        # Printers and viewers take the side that normals point to for the outside.
+        click.echo("its faces look inwards, for f is positive inside: turn the formula's sign around", err=True)

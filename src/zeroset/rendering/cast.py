@@ -78,7 +78,8 @@ def cast(
             other than the tolerance, or than 2^-22 of t, are one hit.
 
     Returns:
-        The hits; with ``max_hits`` each array has a second axis of that length, filled up with misses.
+        The hits; with ``max_hits`` each array has a second axis of that length, filled up with misses. A search that
+        gives up after 32,768 evaluations ends its ray's list with an unresolved hit: what lies behind it is not known.
 
     Raises:
         ArrayShapeError: wrong shapes, non-finite numbers, or a direction of length 0.

@@ -25,6 +25,8 @@ from zeroset.solve.names import OFFSET
 
 FEW, MANY = 2.0, 98.0
 """Percentiles of the values seen that a range goes between where none was given."""
+NOTHING = 1e-9
+"""Sizes below this are rounding: of the mean curvature of a minimal surface nothing else is left."""
 MOST = 95.0
 """Percentile of their sizes that one around 0 reaches: curvatures grow without bound towards singular points."""
 MOST_SAMPLES = 1 << 16
@@ -114,7 +116,7 @@ def found_range(values: npt.NDArray[np.float32], centred: bool) -> tuple[float, 
     some = values[:: -(-len(values) // MOST_SAMPLES)].astype(np.float64)
     if centred:
         most = float(np.percentile(np.abs(some), MOST))
-        return (-most, most) if most > 1e-12 else (-1.0, 1.0)
+        return (-most, most) if most > NOTHING else (-1.0, 1.0)
     low, high = (float(v) for v in np.percentile(some, (FEW, MANY)))
     # Values that are all alike get the middle colour.
     room = max(1e-6 * max(abs(low), abs(high)), 1e-12)

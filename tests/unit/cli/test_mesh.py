@@ -19,6 +19,12 @@ def test_a_formula_becomes_a_file_of_triangles(zeroset: Run, tmp_path: Path) -> 
     assert trimesh.load_mesh(tmp_path / "ball.stl").is_watertight
 
 
+def test_a_surface_that_is_inside_out_is_told(zeroset: Run) -> None:
+    ran = zeroset("mesh", "1 - x^2 - y^2 - z^2", "-b", "1.5", "-r", "17", "-o", "in.stl")
+    assert ran.status == 0
+    assert "its faces look inwards" in ran.err
+
+
 def test_gallery_names_scene_files_and_parameters(zeroset: Run, tmp_path: Path) -> None:
     assert zeroset("mesh", "clebsch", "-r", "16", "-o", "a.obj").status == 0
     assert zeroset("render", "clebsch", "-s", "8", "-o", "a.png", "--save-scene", "a.toml").status == 0

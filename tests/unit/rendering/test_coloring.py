@@ -268,6 +268,7 @@ def test_the_gpu_agrees_with_the_cpu() -> None:
 def test_ranges_that_are_found() -> None:
     ramp = np.linspace(-1, 3, 1001, dtype=np.float32)
     assert found_range(ramp, False) == pytest.approx((-0.92, 2.92))
+    assert found_range(ramp * 1e-11, True) == (-1.0, 1.0)
     low, high = found_range(ramp, True)
     assert low == -high
     assert high == pytest.approx(2.8, abs=0.01)
