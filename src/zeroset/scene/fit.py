@@ -3,6 +3,9 @@
 All boxes of a level are evaluated at once, as intervals over NumPy arrays. The hull of what is kept tightens level by
 level; a surface that still reaches the ends of the searched cube goes on for ever as far as a picture is concerned,
 and gets a ball of a handy size instead.
+
+Intervals do not see that terms cancel: x^4 + y^4 + z^4 - r^4/4 may be 0 in boxes of a sixteenth of their distance,
+however far away they are. Where f has one sign in all boxes that are far out, affine forms look again.
 """
 
 from __future__ import annotations
@@ -13,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.arith import F64, Interval, IntervalSystem
+from zeroset.arith import F64, AffineSystem, IntervalSystem
 from zeroset.scene.bounds import Ball
 from zeroset.scene.parameters import LARGEST
 from zeroset.scene.solid import Solid
@@ -28,18 +31,32 @@ BOXES = 2500
 EVALUATIONS = 1_000_000
 """Operations on boxes that a level may cost: long formulas keep fewer boxes."""
 LEVELS = 12
+FINEST = 40
+"""Levels that a small thing may cost, of which a box holds all at the usual ones."""
+ROUGH = 0.125
+"""A box's side as a share of what is left, above which that is told too roughly."""
+LOOSE, SAMPLES = 1.5, 200
+"""Boxes from this share of the farthest one's distance on are looked at for changes of sign, so many of them."""
+INTERVALS = IntervalSystem(F64)
+FORMS = AffineSystem(F64, symbols=3, intersect=True)
 
 Corners = npt.NDArray[np.float64]
+Number = Any
+"""An interval or an affine form, over arrays."""
+System = IntervalSystem | AffineSystem
 
 
 def fit_bounds(thing: Surface | Solid) -> Ball:
     """The smallest ball found around a surface or a solid's skin; the unit ball where space holds no zero at all."""
     for i, half in enumerate(SEARCHED):
-        low, high = _kept(thing, half, LEVELS + 6 * i)
+        low, high = _kept(thing, INTERVALS, half, LEVELS + 6 * i)
         if len(low):
             break
     else:
         return Ball(1.0)
+    if _loose(thing, low, high):
+        closer = _kept(thing, FORMS, half, LEVELS + 6 * i)
+        low, high = closer if len(closer[0]) else (low, high)
     if np.any(low.min(axis=0) <= -half) or np.any(high.max(axis=0) >= half):
         # Of what begins farther out at least the nearest part is in it.
         nearest = float(np.sqrt((np.maximum(np.maximum(low, -high), 0.0) ** 2).sum(axis=1)).min())
@@ -54,17 +71,46 @@ def fit_bounds(thing: Surface | Solid) -> Ball:
     return Ball(radius * 1.01, (float(center[0]), float(center[1]), float(center[2])))
 
 
-def _kept(thing: Surface | Solid, half: float, levels: int) -> tuple[Corners, Corners]:
+def _kept(thing: Surface | Solid, system: System, half: float, levels: int) -> tuple[Corners, Corners]:
     """Lower and upper corners of boxes in a cube, as small as there is room for, outside of which is no zero."""
     low, high = np.full((1, 3), -half), np.full((1, 3), half)
     most = min(BOXES, max(64, EVALUATIONS // sum(surface.field.work for surface in thing.surfaces)))
-    for _ in range(levels):
+    for level in range(FINEST):
+        extent = (high.max(axis=0) - low.min(axis=0)).max()
+        if level >= levels and (high[0] - low[0]).max() < ROUGH * extent:
+            break
         inner_low, inner_high = _split(low, high)
-        kept = _may_hold_zero(thing, inner_low, inner_high)
+        kept = _may_hold_zero(thing, system, inner_low, inner_high)
         low, high = inner_low[kept], inner_high[kept]
         if not len(low) or len(low) > most:
             break
     return low, high
+
+
+def _loose(thing: Surface | Solid, low: Corners, high: Corners) -> bool:
+    """Whether the boxes farthest out seem to hold nothing: at no corner of theirs a function has another sign."""
+    sizes = np.sqrt((np.maximum(np.abs(low), np.abs(high)) ** 2).sum(axis=1))
+    far = np.flatnonzero(sizes * LOOSE >= sizes.max())
+    some = far[:: -(-len(far) // SAMPLES)]
+    low, high = low[some], high[some]
+    corners = np.concatenate([np.where([c >> axis & 1 for axis in range(3)], high, low) for c in range(8)])
+    values = _values(thing, corners).reshape(8, -1)
+    levels = (0.0,) if isinstance(thing, Solid) else thing.isovalues or (0.0,)
+    for level in levels:
+        above = values > level
+        if np.any(above.any(axis=0) & ~above.all(axis=0)):
+            return False
+    return True
+
+
+def _values(thing: Surface | Solid, points: Corners) -> Corners:
+    """f at points; of a solid something that is above 0 outside of it and below 0 inside."""
+    if isinstance(thing, Surface):
+        return values_at(thing, points)
+    parts = [_values(part, points) for part in thing.of]
+    if thing.op == "not":
+        return -parts[0]
+    return np.fmin(*parts) if thing.op == "or" else np.fmax(*parts)
 
 
 def values_at(surface: Surface, points: Corners) -> Corners:
@@ -75,7 +121,7 @@ def values_at(surface: Surface, points: Corners) -> Corners:
         >>> values_at(zs.surface("x^2 + y^2 - 1"), np.array([[0.0, 0.0, 5.0], [2.0, 0.0, 0.0]])).round(9).tolist()
         [-1.0, 3.0]
     """
-    f = _over(surface, IntervalSystem(F64), points, points)
+    f = _over(surface, INTERVALS, points, points).interval()
     low, high = np.asarray(f.lo), np.asarray(f.hi)
     # Ends near the largest floats say that nothing is known.
     known = np.maximum(np.abs(low), np.abs(high)) < LARGEST
@@ -93,10 +139,9 @@ def _split(low: Corners, high: Corners) -> tuple[Corners, Corners]:
     return np.concatenate(lows), np.concatenate(highs)
 
 
-def _may_hold_zero(thing: Surface | Solid, low: Corners, high: Corners) -> npt.NDArray[np.bool_]:
+def _may_hold_zero(thing: Surface | Solid, system: System, low: Corners, high: Corners) -> npt.NDArray[np.bool_]:
     if isinstance(thing, Solid):
-        return np.equal(_sign(thing, low, high), 0)
-    system = IntervalSystem(F64)
+        return np.equal(_sign(thing, system, low, high), 0)
     f = _over(thing, system, low, high)
     with np.errstate(all="ignore"):
         values = [f - system.constant(v, v) for v in thing.isovalues] or [f]
@@ -106,19 +151,20 @@ def _may_hold_zero(thing: Surface | Solid, low: Corners, high: Corners) -> npt.N
     return found
 
 
-def _over(surface: Surface, system: IntervalSystem, low: Corners, high: Corners) -> Interval:
+def _over(surface: Surface, system: System, low: Corners, high: Corners) -> Number:
     with np.errstate(all="ignore"):
-        f: Interval = surface.field.evaluate(system, _Boxes(surface, system, low, high))
+        f: Number = surface.field.evaluate(system, _Boxes(surface, system, low, high))
     return f
 
 
-def _sign(thing: Surface | Solid, low: Corners, high: Corners) -> npt.NDArray[np.int8]:
+def _sign(thing: Surface | Solid, system: System, low: Corners, high: Corners) -> npt.NDArray[np.int8]:
     """+1 outside, -1 inside, 0 where a box may hold some of the skin."""
     if isinstance(thing, Surface):
-        f = _over(thing, IntervalSystem(F64), low, high)
-        certain = np.where(np.asarray(f.lo) > 0, 1, -1)
+        f = _over(thing, system, low, high)
+        # What has no value is not <= 0.
+        certain = np.where(np.asarray(f.signs()[0]) | np.asarray(f.empty), 1, -1)
         return np.broadcast_to(np.where(f.contains_zero(), 0, certain), (len(low),)).astype(np.int8)
-    signs = [_sign(part, low, high) for part in thing.of]
+    signs = [_sign(part, system, low, high) for part in thing.of]
     if thing.op == "not":
         return np.negative(signs[0])
     return np.minimum(*signs) if thing.op == "or" else np.maximum(*signs)
@@ -127,22 +173,28 @@ def _sign(thing: Surface | Solid, low: Corners, high: Corners) -> npt.NDArray[np
 class _Boxes:
     """Leaves of f over many boxes at once."""
 
-    def __init__(self, surface: Surface, system: IntervalSystem, low: Corners, high: Corners) -> None:
+    def __init__(self, surface: Surface, system: System, low: Corners, high: Corners) -> None:
         self._surface = surface
         self._system = system
-        self._axes = {name: system.bounds(low[:, i], high[:, i]) for i, name in enumerate("xyz")}
+        self._axes: dict[str, Number]
+        if isinstance(system, AffineSystem):
+            middle = 0.5 * (low + high)
+            half = np.maximum(high - middle, middle - low) * (1.0 + 2.0**-40)
+            self._axes = {name: system.symbol(i, middle[:, i], half[:, i]) for i, name in enumerate("xyz")}
+        else:
+            self._axes = {name: system.bounds(low[:, i], high[:, i]) for i, name in enumerate("xyz")}
 
-    def variable(self, name: str) -> Interval:
+    def variable(self, name: str) -> Number:
         known = self._axes.get(name)
         return known if known is not None else self.parameter(name)
 
-    def parameter(self, name: str) -> Interval:
+    def parameter(self, name: str) -> Number:
         value = self._surface.params[name]
         return self._system.constant(value, value)
 
-    def sum(self, system: Any, arrays: tuple[str, ...], body: Callable[[Mapping[str, Interval]], Interval]) -> Interval:
+    def sum(self, system: Any, arrays: tuple[str, ...], body: Callable[[Mapping[str, Any]], Any]) -> Number:
         total = system.constant(0.0, 0.0)
         for values in zip(*(self._surface.arrays[name] for name in arrays), strict=True):
             total = total + body({n: system.constant(float(v), float(v)) for n, v in zip(arrays, values, strict=True)})
-        result: Interval = total
+        result: Number = total
         return result

@@ -8,12 +8,12 @@ from zeroset.scene.bounds import Ball
 from zeroset.scene.fit import UNBOUNDED
 
 
-@pytest.mark.parametrize("radius", [0.5, 3.0, 20.0, 1000.0, 1e5])
+@pytest.mark.parametrize("radius", [1e-4, 0.01, 0.5, 3.0, 20.0, 1000.0, 1e5])
 def test_a_sphere_gets_a_ball_a_little_larger(radius: float) -> None:
     bounds = zs.surface("x^2 + y^2 + z^2 = r^2", {"r": radius}).fitted
     assert isinstance(bounds, Ball)
     assert bounds.center == (0.0, 0.0, 0.0)
-    assert radius < bounds.radius < 1.25 * radius
+    assert radius < bounds.radius < 1.4 * radius
 
 
 def test_a_surface_away_from_the_origin_is_found() -> None:
@@ -46,6 +46,14 @@ def test_sums_over_arrays_and_time_are_fitted_too() -> None:
     surface = zs.surface("sum(i, 1/((x - c[i])^2 + y^2 + z^2)) = 1 + w", {"c": [-2.0, 2.0]})
     assert 2.9 < surface.fitted.reach < 5
     assert surface.with_params(w=3.0).fitted.reach < surface.fitted.reach
+
+
+def test_terms_that_cancel_far_out_are_seen_to() -> None:
+    """Along its diagonals no interval of a sixteenth of the distance excludes it."""
+    terms = "x^4 + y^4 + z^4 + a*(x^2 + y^2 + z^2)^2 + b*(x^2 + y^2 + z^2) + c"
+    goursat = zs.surface(terms, {"a": -0.25, "b": -1.0, "c": 0.4})
+    assert 3.4 < goursat.fitted.reach < 4.5
+    assert 3.0 < (goursat & zs.surface("x")).fitted.reach < 4.5
 
 
 def test_bounds_that_were_given_are_kept() -> None:
