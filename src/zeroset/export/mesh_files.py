@@ -45,8 +45,12 @@ def encode(mesh: Mesh, kind: str) -> bytes:
     """
     import trimesh
 
+    vertices, normals = mesh.vertices, mesh.normals
+    if kind == "glb":
+        # What is upwards here is z, and y in glTF.
+        vertices, normals = (v[:, (0, 2, 1)] * (1.0, 1.0, -1.0) for v in (vertices, normals))
     # As it is: trimesh would merge and reorder vertices.
-    shape = trimesh.Trimesh(mesh.vertices, mesh.faces, vertex_normals=mesh.normals, process=False)
+    shape = trimesh.Trimesh(vertices, mesh.faces, vertex_normals=normals, process=False)
     options: dict[str, Any] = {} if kind == "stl" else {"include_normals": True}
     if kind == "ply":
         options = {"vertex_normal": True}
