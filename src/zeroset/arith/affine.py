@@ -187,8 +187,11 @@ class Affine(Number):
 
     def contains_zero(self) -> Mask:
         """False only where f certainly has no zero; true for a form that overflowed."""
-        excluded = or_(*self.signs(), self.empty)
-        return not_(excluded if self.bounds is None else or_(excluded, self.bounds.empty))
+        if self._system.curved or self.bounds is not None:
+            excluded = or_(*self.signs(), self.empty)
+            return not_(excluded if self.bounds is None else or_(excluded, self.bounds.empty))
+        # The same in fewer operations.
+        return not_(or_(gt(absolute(self.centre), self.reach()), self.empty))
 
     def signs(self) -> tuple[Mask, Mask]:
         """Whether f is certainly above 0, and whether it is certainly below.
