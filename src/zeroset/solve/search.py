@@ -25,10 +25,10 @@ from zeroset.solve.walk import State, Walk
 
 ZONE = 3
 """How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
-NEAR = 16.0
-"""Widths of a narrowest interval that are near a place where f jumps or has no value."""
 HAZE = 48
 """The same where f may jump or have no value: beside such a place enclosures are wide over many of them."""
+NEAR = 16.0
+"""Widths of a narrowest interval that are near such a place."""
 GRAZING = 48
 """Evaluations that getting away from the surface that a ray comes from may take."""
 PATIENCE = 1 << 15
