@@ -244,4 +244,8 @@ def _turn(
         mark, side = note_parts(problem, Turn(seen, zone.mark, in_zone, joins, proven, closes, hit, side))
         after = after._replace(mark=mark)
     blunt = proven & (seen.right - seen.left > (b - a) * BLUNT) if _bends(system) else constant(False, BOOL)
-    return _Found(status, (start + end) * 0.5, (start, side, end, blunt)), moved, after
+    t = (start + end) * 0.5
+    if problem.hazy:
+        # Behind a jump f has another gradient: all of a wall shows that of the side which is seen.
+        t = (hit | closes.select(zone.whole, whole)).select(t, start)
+    return _Found(status, t, (start, side, end, blunt)), moved, after

@@ -74,6 +74,19 @@ def test_a_jump_with_another_sign_behind_it_is_drawn() -> None:
     assert image.unresolved > 100
 
 
+@pytest.mark.parametrize("device", DEVICES)
+def test_a_wall_shows_one_side(device: str) -> None:
+    """The cap of a tube that ends where atan2 jumps."""
+    tube = zs.surface("(x^2 + y^2 - 1)^2 + (z - atan2(y, x)/2)^2 = 0.05", bounds=2.2)
+    image = zs.render(tube, 200, zs.Camera(eye=(-2.0, -5.0, 3.0), target=(-1.0, 0.0, 1.57), fov=14), device=device)
+    wall = image.aov("status") == zs.UNRESOLVED
+    assert wall.sum() > 200
+    normal = image.aov("normal")
+    for a, b in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+        beside = np.einsum("ijk,ijk->ij", normal[a], normal[b])[wall[a] & wall[b]]
+        assert np.mean(beside > 0.9) > 0.98
+
+
 def test_rays_of_ones_own_are_not_told_that_there_is_nothing() -> None:
     """A caller gets what is proven: nothing is known of f right beside x = 0."""
     hits = zs.cast(zs.surface("z = sin(x)/x", bounds=4), [[-3, 0.2, 2.5], [-3, 0.2, 0.5]], [[1, 0.1, 0], [1, 0, 0]])
