@@ -11,7 +11,7 @@ try:
 except ImportError:  # another Python
     from hashlib import blake2b
 
-__all__ = ["blake2b", "digest", "hexdigest"]
+__all__ = ["SIZE", "blake2b", "digest", "hexdigest"]
 
 SIZE = 32
 """Bytes of a digest: no two contents that anybody ever sees have the same one."""

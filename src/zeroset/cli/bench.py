@@ -24,8 +24,6 @@ COMMAND_SURFACE = "barth-sextic"
 PASSES_SURFACE = "barth-sextic"
 
 
-KINDS = ("memory", "light", "cold", "passes", "papers")
-"""What may be measured instead of frames."""
 SIZES = (512, 1024)
 """Pixels a side where nobody asks for others."""
 
@@ -52,7 +50,7 @@ class _Bench(click.Command):
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
         # Of several such options the last one would count, in silence.
-        asked = [option for option in dict.fromkeys(args) if option[2:] in KINDS and option.startswith("--")]
+        asked = [name for option in self.params if option.name == "kind" for name in option.opts if name in args]
         if len(asked) > 1:
             raise click.UsageError(f"{' and '.join(asked)} are measured one at a time")
         with super().make_context(info_name, list(args), parent, resilient_parsing=True) as seen:

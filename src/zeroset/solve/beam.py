@@ -89,12 +89,6 @@ class Patch(NamedTuple):
         return body.excludes(self.system, point) | self.outside(body.body, point)
 
 
-def _around(interval: Any) -> Any:
-    """An interval so much wider that what is next to it is in it, too."""
-    middle, half = (interval.lo + interval.hi) * 0.5, (interval.hi - interval.lo) * (0.5 * NEAR)
-    return interval.make(middle - half, middle + half)
-
-
 NEAR = 12.0
 """Widths of a part of a pixel, some three pixels, that are near a place where f has no value: there a quotient such as
 sin(x)/x is enclosed too widely, however narrow the part is."""
@@ -104,6 +98,12 @@ EARLY = 64.0
 """Finest steps from which on a stretch is asked whether the surface there is an ordinary one."""
 STEEPEST = 1e30
 """Size of a derivative that is not known yet."""
+
+
+def _around(interval: Any) -> Any:
+    """An interval so much wider that what is next to it is in it, too."""
+    middle, half = (interval.lo + interval.hi) * 0.5, (interval.hi - interval.lo) * (0.5 * NEAR)
+    return interval.make(middle - half, middle + half)
 
 
 class Ordinary(NamedTuple):

@@ -123,7 +123,7 @@ class Body(NamedTuple):
 
     @property
     def continuous(self) -> bool:
-        """Whether all of its formulas are known to be defined and continuous everywhere."""
+        """Whether all of its formulas are likely to be defined and continuous everywhere."""
         return all(leaf.field.continuous for leaf, _ in self.leaves)
 
     @property
@@ -159,7 +159,7 @@ class Shape(NamedTuple):
 
     @property
     def continuous(self) -> bool:
-        """Whether all formulas are known to be defined and continuous everywhere."""
+        """Whether all formulas are likely to be defined and continuous everywhere."""
         return all(body.continuous for body in self.bodies)
 
     @property

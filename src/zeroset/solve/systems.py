@@ -27,7 +27,7 @@ class Powered(Protocol):
 
     @property
     def continuous(self) -> bool:
-        """Whether all of its formulas are known to be defined and continuous everywhere."""
+        """Whether all of its formulas are likely to be defined and continuous everywhere."""
 
 
 def automatic_system(field: Powered, fmt: Format, symbols: int = 1) -> AffineSystem:
