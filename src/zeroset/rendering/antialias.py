@@ -13,9 +13,8 @@ from functools import reduce
 from typing import NamedTuple
 
 from zeroset.kernel import F32, U32, Buffer, Kernel, KernelBuilder, Value, atomic, constant, if_, load, store
-from zeroset.rendering.buffers import COUNTERS, EDGES, NORMAL, PART
+from zeroset.rendering.buffers import COUNTERS, EDGES, EMPTY_TILE, NORMAL, PART
 from zeroset.rendering.layout import Beside, pixel_coordinates, pixel_place, tile_of
-from zeroset.rendering.primary import EMPTY_TILE
 from zeroset.rendering.view import pixel_ray, vector
 from zeroset.shade.reflectance import dot
 from zeroset.solve.status import MISS, UNRESOLVED

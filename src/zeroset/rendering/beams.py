@@ -19,7 +19,7 @@ from zeroset.arith import AffineSystem
 from zeroset.kernel import F32, U32, Buffer, Kernel, KernelBuilder, Value, atomic, constant, if_, lift, store
 from zeroset.rendering.buffers import (
     COUNTERS,
-    FIELDS,
+    EMPTY_TILE,
     IN_BLOCKS,
     IN_PARTS,
     IN_PIXELS,
@@ -28,12 +28,13 @@ from zeroset.rendering.buffers import (
     PARTS,
     THIN,
     THIN_PIXEL,
+    THIN_REACH,
     Ends,
 )
 from zeroset.rendering.cells import HALF, Cells, place_of
 from zeroset.rendering.gbuffer import write
 from zeroset.rendering.layout import pixel_coordinates
-from zeroset.rendering.primary import EMPTY_TILE, camera_ray, t_range
+from zeroset.rendering.primary import camera_ray
 from zeroset.rendering.view import frame_patch
 from zeroset.solve.beam import Beam, trace_beam
 from zeroset.solve.field import Ray
@@ -61,10 +62,9 @@ def beam_kernel(shape: Shape, offset: bool, ends: Ends = (), again: bool = False
         half = pixel * cells.width * HALF
         patch = frame_patch(builder, subject, across.fma(pixel, u), (-down).fma(pixel, v), half)
         start, step = cells.start()
-        near = cells.wanted().select(start, EMPTY_TILE)
-        aiming, far = cells.level.eq(IN_TILES), t_range(builder)[1]
+        aiming, far = cells.level.eq(IN_TILES), cells.far(start)
         unsure = cells.level < IN_PIXELS
-        beam = trace_beam(patch, near, far, step, cells.finest(), aiming, unsure, cells.ordinary())
+        beam = trace_beam(patch, start, far, step, cells.finest(), aiming, unsure, cells.ordinary(far))
         keep = _Keeping(builder, subject, cells, beam)
 
         def found() -> None:
@@ -104,8 +104,7 @@ class _Keeping(NamedTuple):
 
     def pixel(self, again: bool) -> None:
         slot = self._append(3, THIN_PIXEL, self.cells.lane)
-        # Where a ray misses nobody reads t; here it tells the parts where to look, and where to draw.
-        store(self.builder.buffer("t", FIELDS["t"], writable=True), self.cells.lane, self.beam.t)
+        store(self.builder.buffer(THIN_REACH, F32, writable=True), slot, self.beam.t)
         if again:
             store(self._parts(), slot, 0)
 
@@ -124,8 +123,8 @@ class _Keeping(NamedTuple):
 
     def draw(self, ends: Ends) -> None:
         """Several parts of a pixel may come here: they all write the same, which is the pixel's."""
-        lane = self.cells.lane
-        where, ray = place_of(self.builder, lane), camera_ray(self.builder, lane)
+        lane, place = self.cells.lane, self.cells.place
+        where, ray = place_of(self.builder, place), camera_ray(self.builder, lane)
         write(self.builder, self.subject, lane, ray, thin_answer(self.subject, where, ray), ends)
 
 

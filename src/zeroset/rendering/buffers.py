@@ -19,8 +19,10 @@ FORMER = "former_status"
 """The status of a ray's last layer."""
 NOTHING = -1e30
 """Where it starts along a ray on which nothing was found yet: before every bounds."""
-MISSED = "block_missed"
-"""For blocks of 4x4 pixels: whether one of its rays missed although its tile's beam did not."""
+EMPTY_TILE = 1e30
+"""Start of the rays of a tile that its beam has shown to be empty: beyond every bounds."""
+OPEN = "block_open"
+"""For blocks of 4x4 pixels: whether one of its rays has gone on for long where its tile's beam has ended."""
 
 
 IN_TILES, IN_BLOCKS, IN_QUARTERS, IN_PIXELS, IN_PARTS = 0, 1, 2, 3, 4
@@ -45,6 +47,8 @@ THIN = {"block": CellList(1, "thin_block", "block_reach"), "quarter": CellList(2
 """The lists of blocks, and of quarters of blocks."""
 THIN_PIXEL = "thin_pixel"
 """The list of pixels that may hold such a thing."""
+THIN_REACH = "thin_reach"
+"""Where it may be, seen as a whole."""
 PARTS = {"thin_left": U32, "thin_parts": U32}
 """Places on that list: of pixels that f32 has left parts of; and for each place which parts of its pixel, as bits."""
 COUNTERS = "counters"

@@ -8,18 +8,21 @@ was clear, so that none looks twice at what lies before.
 
 from __future__ import annotations
 
-from zeroset.kernel import BOOL, F32, U32, KernelBuilder, Type, Value, constant, for_, if_, load
+from zeroset.kernel import BOOL, F32, U32, Buffer, KernelBuilder, Type, Value, constant, for_, if_, load
 from zeroset.rendering.buffers import (
     BLOCK,
-    FIELDS,
+    EMPTY_TILE,
+    IN_BLOCKS,
     IN_PARTS,
     IN_PIXELS,
     IN_QUARTERS,
     IN_TILES,
-    MISSED,
+    OPEN,
     THIN,
     THIN_PIXEL,
+    THIN_REACH,
 )
+from zeroset.rendering.front import free_up_to
 from zeroset.rendering.layout import TILE, lane_of, pixel_place, tile_of
 from zeroset.rendering.primary import t_range
 from zeroset.solve.beam import Ordinary
@@ -41,17 +44,22 @@ def part_offset(part: Value) -> tuple[Value, Value]:
     return (part & 3).convert(F32).fma(0.25, -0.375), (part >> 2).convert(F32).fma(0.25, -0.375)
 
 
-def place_of(builder: KernelBuilder, lane: Value) -> Value:
-    """The t of a pixel that is on the list: where it was found to hold something, seen as a whole.
+def place_of(builder: KernelBuilder, place: Value) -> Value:
+    """The t of a pixel on the list: where it was found to hold something, seen as a whole.
 
     From there it is lit, too: a little in front of what is thin its normals are smooth.
     """
-    return load(builder.buffer("t", FIELDS["t"], writable=True), lane)
+    return load(builder.buffer(THIN_REACH, F32, writable=True), place)
 
 
-def reached(builder: KernelBuilder, lane: Value) -> Value:
-    """Up to where a pixel that is on the list was clear."""
-    return place_of(builder, lane) - builder.uniform("finest", F32) * (2.0 / TILE)
+def reached(builder: KernelBuilder, place: Value) -> Value:
+    """Up to where a pixel on the list was clear."""
+    return place_of(builder, place) - builder.uniform("finest", F32) * (2.0 / TILE)
+
+
+def _met(builder: KernelBuilder) -> tuple[Buffer, Buffer]:
+    """Whether pixels' rays have met something, and where."""
+    return builder.buffer("status", U32, writable=True), builder.buffer("t", F32, writable=True)
 
 
 def shortest(builder: KernelBuilder, width: Value | float) -> Value:
@@ -107,39 +115,60 @@ class Cells:
             self._listed(THIN[kind].reach, level, F32) - shortest(self._builder, WIDTHS[level - 1])
             for kind, level in _PARENTS
         )
-        reach = self._pick(near, start, block, quarter, reached(self._builder, self.lane))
-        whole = self.level.eq(IN_TILES)
-        return whole.select(near, start.maximum(reach)), whole.select((far - near) * 0.25, step)
+        reach = self._pick(near, start, block, quarter, reached(self._builder, self.place))
+        whole, blocks = self.level.eq(IN_TILES), self.level.eq(IN_BLOCKS)
+        marked = load(self._builder.buffer(OPEN, U32, writable=True), self.lane >> 4).ne(0)
+        begin = (blocks & ~marked).select(EMPTY_TILE, start.maximum(reach))
+        return whole.select(near, begin), whole.select((far - near) * 0.25, step)
+
+    def far(self, start: Value) -> Value:
+        """Where a lane's beam ends: in front of what rays have met in each quarter of what it looks at.
+
+        Where one has missed there is nothing to end at.
+        """
+        end, quarters = t_range(self._builder)[1], self.level.eq(IN_BLOCKS).select(constant(4, U32), 1)
+        pixels = (self.level <= IN_QUARTERS).select(constant(4, U32), 1)
+
+        def quarter(i: Value, farthest: Value, nearest: Value) -> tuple[Value, ...]:
+            corner = self.lane + ((i & 1) << 1) + ((i >> 1) << 3)
+
+            def pixel(i: Value, last: Value) -> Value:
+                return last.maximum(free_up_to(self._builder, corner + (i & 1) + ((i >> 1) << 2), end))
+
+            (last,) = for_(pixels, pixel, constant(-EMPTY_TILE, F32))
+            return farthest.maximum(last), nearest.minimum(last)
+
+        def rays() -> tuple[Value, ...]:
+            return for_(quarters, quarter, constant(-EMPTY_TILE, F32), end)
+
+        farthest, nearest = if_(start < EMPTY_TILE, rays, lambda: (end, end))
+        return (self.level.eq(IN_TILES) | (farthest >= end)).select(end, nearest)
 
     def finest(self) -> Value:
         """The shortest step along a lane's beam."""
         return shortest(self._builder, self.width * self._number(FINENESS))
 
-    def wanted(self) -> Value:
-        """Whether there may be something to find: where all rays have met something, nothing lies between them."""
-        status = self._builder.buffer("status", U32, writable=True)
-        missed, *others = (load(status, self.lane + i).eq(MISS) for i in (0, 1, 4, 5))
-        marked = load(self._builder.buffer(MISSED, U32, writable=True), self.lane >> 4).ne(0)
-        always = constant(True, BOOL)
-        return self._pick(always, marked, missed | others[0] | others[1] | others[2], missed, always)
-
-    def ordinary(self) -> Ordinary:
-        """What f's derivatives across a lane's patch are like beside an ordinary silhouette."""
-        across, down = if_(self.level >= IN_PIXELS, self._hits_beside, lambda: (False, False))
+    def ordinary(self, far: Value) -> Ordinary:
+        """What f's derivatives across a lane's patch, up to ``far``, are like beside an ordinary silhouette."""
+        across, down = if_(self.level >= IN_PIXELS, lambda: self._hits_beside(far), lambda: (False, False))
         return Ordinary(self._number(STEADINESS), across, down, self.level.eq(IN_PARTS))
 
-    def _hits_beside(self) -> tuple[Value, ...]:
-        """Whether the ray of a pixel to the left or right of a lane's has met something, and one above or below."""
-        builder, status = self._builder, self._builder.buffer("status", U32, writable=True)
+    def _hits_beside(self, far: Value) -> tuple[Value, ...]:
+        """Whether a ray left or right of a lane's pixel meets something nearer than that does; or above or below."""
+        builder = self._builder
+        status, t = _met(builder)
         column, row = pixel_place(builder, self.lane)
         last = [builder.uniform(name, U32) - 1 for name in ("width", "height")]
+        # A sheet that ends in this pixel may be met a little behind ``far``; what the pixel's ray met lies farther yet.
+        before = far + builder.uniform("finest", F32)
 
         def one(i: Value, across: Value, down: Value) -> tuple[Value, ...]:
             # Numbers wrap around at 0: the first pixel's other neighbour is taken twice.
             step, sideways = (i & 1) * 2 - 1, i < 2
             x = sideways.select(column + step, column).minimum(last[0])
             y = sideways.select(row, row + step).minimum(last[1])
-            hit = load(status, lane_of(builder, x, y)).ne(MISS)
+            beside = lane_of(builder, x, y)
+            hit = load(status, beside).ne(MISS) & (load(t, beside) < before)
             return across | (hit & sideways), down | (hit & ~sideways)
 
         no = constant(False, BOOL)

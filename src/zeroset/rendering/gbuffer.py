@@ -13,7 +13,7 @@ from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, constant, if_, lift, store
-from zeroset.rendering.buffers import CLEAR, COUNTERS, END, MISSED, NORMAL, PART, SECOND, Ends, fields
+from zeroset.rendering.buffers import CLEAR, COUNTERS, END, NORMAL, PART, SECOND, Ends, fields
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.problem import Answer
 from zeroset.solve.shape import Leaf
@@ -172,9 +172,3 @@ def ask_second_look(
     if blunt and answer.blunt is not None:
         wanted = answer.status.ne(MISS) & (wanted | answer.blunt)
     if_(wanted, append)
-
-
-def ask_for_thin(builder: KernelBuilder, lane: Value, missed: Value) -> None:
-    """Mark the block of a pixel whose ray missed; several lanes may store the same 1."""
-    marks = builder.buffer(MISSED, U32, writable=True)
-    if_(missed, lambda: store(marks, lane >> 4, 1))

@@ -10,10 +10,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, load, store, while_
-from zeroset.rendering.buffers import FORMER, FROM, NOTHING, ONWARD, SECOND
+from zeroset.rendering.buffers import EMPTY_TILE, FORMER, FROM, NOTHING, ONWARD, SECOND
 from zeroset.rendering.gbuffer import ask_second_look, behind, write
 from zeroset.rendering.primary import (
-    EMPTY_TILE,
     as_fine_as_asked,
     camera_ray,
     exact_ray,

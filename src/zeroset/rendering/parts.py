@@ -13,6 +13,7 @@ from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, co
 from zeroset.rendering.beams import thin_answer
 from zeroset.rendering.buffers import IN_PARTS, THIN_PIXEL, Ends
 from zeroset.rendering.cells import FINENESS, HALF, WIDTHS, part_offset, place_of, reached, shortest
+from zeroset.rendering.front import free_up_to
 from zeroset.rendering.gbuffer import write
 from zeroset.rendering.layout import pixel_place, tile_of
 from zeroset.rendering.primary import camera_ray, exact_ray, t_range
@@ -55,7 +56,7 @@ def parts_kernel(shape: Shape, offset: bool, ends: Ends = ()) -> Kernel:
         place = load(builder.buffer("thin_left", U32), builder.index())
         lane = load(builder.buffer(THIN_PIXEL, U32), place)
         subject = Subject(shape, builder, F64, offset)
-        pixel = _Pixel(builder, subject, lane)
+        pixel = _Pixel(builder, subject, lane, place)
 
         def running(*state: Value) -> Value:
             now = _State(*state)
@@ -67,7 +68,7 @@ def parts_kernel(shape: Shape, offset: bool, ends: Ends = ()) -> Kernel:
         none, no = constant(0, U32), constant(False, BOOL)
         parts = load(builder.buffer("thin_parts", U32), place)
         end = _State(*while_(running, turn, *_State(parts, ~no, none, pixel.near, no, none)))
-        where, ray = place_of(builder, lane).convert(F64), exact_ray(camera_ray(builder, lane))
+        where, ray = place_of(builder, place).convert(F64), exact_ray(camera_ray(builder, lane))
         if_(end.left.ne(0), lambda: write(builder, subject, lane, ray, thin_answer(subject, where, ray), ends))
     return builder.kernel
 
@@ -104,15 +105,15 @@ class _Pixel:
         window: so far quarters are looked through.
     """
 
-    def __init__(self, builder: KernelBuilder, subject: Subject, lane: Value) -> None:
+    def __init__(self, builder: KernelBuilder, subject: Subject, lane: Value, place: Value) -> None:
         self._builder = builder
         self._subject = subject
         # In f64 from the start: quarters of parts are not much wider than coordinates are rounded by in f32.
         self._column, self._row = (place.convert(F64) + 0.5 for place in pixel_place(builder, lane))
         self._side, self._left, self._top = (builder.uniform(name, F32).convert(F64) for name in ("pixel", "u0", "v0"))
         start = load(builder.buffer("tile_start", F32), tile_of(lane))
-        self._far = t_range(builder)[1].convert(F64)
-        self.near = start.maximum(reached(builder, lane)).convert(F64)
+        self._far = free_up_to(builder, lane, t_range(builder)[1]).convert(F64)
+        self.near = start.maximum(reached(builder, place)).convert(F64)
         self.finest = shortest(builder, WIDTHS[IN_PARTS] * FINENESS[IN_PARTS]).convert(F64)
         self.window = self.finest * WINDOW
 

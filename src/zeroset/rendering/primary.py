@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, constant, if_, load
 from zeroset.rendering.buffers import SECOND, Ends
-from zeroset.rendering.gbuffer import ask_for_thin, ask_second_look, write, write_ends
+from zeroset.rendering.front import ask_for_thin
+from zeroset.rendering.gbuffer import ask_second_look, write, write_ends
 from zeroset.rendering.layout import pixel_coordinates, tile_of
 from zeroset.rendering.view import pixel_ray
 from zeroset.scene.clip import clip
@@ -18,7 +19,7 @@ from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
 from zeroset.solve.shape import Shape
-from zeroset.solve.status import HIT, MISS, UNRESOLVED
+from zeroset.solve.status import HIT, UNRESOLVED
 from zeroset.solve.subject import LoweredBody, Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
@@ -29,8 +30,6 @@ RESOLUTION = 2.0**-20
 """The shortest step that moves along a ray in f32, as a part of t."""
 COARSE = 4.0
 """Tolerances that a find may be off by."""
-EMPTY_TILE = 1e30
-"""Start of the rays of a tile that its beam has shown to be empty: beyond every bounds."""
 
 
 def camera_ray(builder: KernelBuilder, lane: Value) -> Ray:
@@ -104,7 +103,7 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
         if second:
             ask_second_look(builder, lane, answer, blunt=True)
         if beams:
-            ask_for_thin(builder, lane, answer.status.eq(MISS) & (near < EMPTY_TILE))
+            ask_for_thin(builder, lane, near)
     return builder.kernel
 
 
@@ -127,7 +126,7 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), bea
         # Rays that go on do so in f32, which needs the room that it had left around its own find.
         if_(~proven, lambda: write_ends(builder, lane, better, ends))
         if beams:
-            ask_for_thin(builder, lane, answer.status.eq(MISS))
+            ask_for_thin(builder, lane, load(builder.buffer("tile_start", F32), tile_of(lane)))
     return builder.kernel
 
 

@@ -21,13 +21,14 @@ from zeroset.rendering.buffers import (
     IN_TILES,
     LISTS,
     LIT,
-    MISSED,
     NOTHING,
     ONWARD,
+    OPEN,
     PARTS,
     SECOND,
     THIN,
     THIN_PIXEL,
+    THIN_REACH,
     Ends,
     fields,
 )
@@ -147,11 +148,11 @@ class Tracer:
             made[LIT] = self._device.allocate(U32, rays)
         if self.beams:
             made |= {name: self._device.allocate(F32, tiles) for name in ("tile_start", "tile_step")}
-            made[MISSED] = self._device.allocate(U32, rays // BLOCK)
+            made[OPEN] = self._device.allocate(U32, rays // BLOCK)
             for cells, pixels in ((THIN["block"], BLOCK), (THIN["quarter"], BLOCK // 4)):
                 made[cells.lanes] = self._device.allocate(U32, rays // pixels)
                 made[cells.reach] = self._device.allocate(F32, rays // pixels)
-            listed = {THIN_PIXEL: U32} | (PARTS if self._passes.again else {})
+            listed = {THIN_PIXEL: U32, THIN_REACH: F32} | (PARTS if self._passes.again else {})
             made |= {name: self._device.allocate(type_, rays) for name, type_ in listed.items()}
         return made
 
@@ -163,7 +164,7 @@ class Tracer:
         bound = {**buffers, **drawn.bind(self._arrays)} if drawn.arrays else buffers
         self._device.clear(buffers[COUNTERS])
         if self.beams:
-            self._device.clear(buffers[MISSED])
+            self._device.clear(buffers[OPEN])
             if self._unaimed(draft) and not self._making.ready(AIM):
                 self._aim_nowhere(uniforms, buffers, tiles)
                 return bound

@@ -168,7 +168,7 @@ def trace_beam(
         return ~found & (a < far) & (count < PATIENCE)
 
     def turn(a: Value, h: Value, found: Value, count: Value) -> tuple[Value, ...]:
-        b = a + h
+        b = (a + h).minimum(far)
         point, t = patch.over(a, b)
         excluded = patch.excludes(point)
         excluded = excluded | patch.hazy(point, ~excluded & ordinary.last & (h <= finest))
@@ -190,7 +190,7 @@ def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Va
         return ~found & (a < far) & (count < PATIENCE)
 
     def turn(a: Value, h: Value, found: Value, count: Value) -> tuple[Value, ...]:
-        b = a + h
+        b = (a + h).minimum(far)
         point = patch.over(a, b)[0]
         excluded = patch.excludes_well(point)
         excluded = excluded | patch.hazy(point, ~excluded & (h <= finest))
