@@ -20,11 +20,7 @@ N = TypeVar("N", bound=Number)
 
 
 class Dual(DualRules[N], Generic[N]):
-    """A value with its derivatives along some directions.
-
-    Attributes:
-        value: a number of the inner system.
-        gradient: the derivatives, numbers of the inner system; None for one that is identically 0.
+    """A value with its derivatives along some directions; ``DualRules`` tells of its attributes.
 
     Example:
         >>> from zeroset.arith import F64, DualSystem, RealSystem

@@ -33,13 +33,7 @@ __all__ = ["Interval", "IntervalCondition", "IntervalSystem"]
 
 
 class Interval(Bounds):
-    """All the reals between two bounds.
-
-    Attributes:
-        lo: lower bound, a scalar.
-        hi: upper bound, a scalar, not below ``lo``.
-        flags: where f is defined on the box that these are bounds for.
-        nonnegative: whether ``lo >= 0`` is known while tracing; saves operations.
+    """All the reals between two bounds; ``Bounds`` tells of its attributes.
 
     Example:
         >>> from zeroset.arith import F64, IntervalSystem
