@@ -4,8 +4,7 @@ Each system makes numbers that have one method for every operator of the express
 numbers of kernel Values writes the kernel that computes its extension; on floats it computes the extension itself.
 """
 
-from zeroset.arith.affine import Affine
-from zeroset.arith.affine_system import AffineSystem
+from zeroset.arith.affine import Affine, AffineSystem
 from zeroset.arith.contraction import Contraction
 from zeroset.arith.dual import Dual, DualSystem
 from zeroset.arith.flags import Flags

@@ -17,7 +17,7 @@ from zeroset.arith.number import Number
 from zeroset.arith.scalar import Scalar, absolute, fma, is_literal, is_zero
 
 if TYPE_CHECKING:
-    from zeroset.arith.affine import Affine
+    from zeroset.arith.affine_form import F, Form
     from zeroset.arith.flags import Flags
     from zeroset.arith.interval import Interval
 
@@ -30,13 +30,13 @@ _FLUSHED = 16.0
 _AFTER_CONSTANT = 2.1
 
 
-def neg(a: Affine) -> Affine:
+def neg(a: F) -> F:
     """-a, exactly."""
     bounds = None if a.bounds is None else a.bounds.neg()
     return a.make(s.neg(a.centre), tuple(s.neg(u) for u in a.terms), a.error, a.budget, bounds=bounds)
 
 
-def add(a: Affine, b: Affine) -> Affine:
+def add(a: F, b: F) -> F:
     """a + b.
 
     Each coefficient is rounded once, by eps times itself: price 1. The operands' credits k_a, k_b are worth at least
@@ -45,12 +45,12 @@ def add(a: Affine, b: Affine) -> Affine:
     return _sum(a, b, s.add, "add")
 
 
-def sub(a: Affine, b: Affine) -> Affine:
+def sub(a: F, b: F) -> F:
     """a - b, as ``add``."""
     return _sum(a, b, s.sub, "sub")
 
 
-def _sum(a: Affine, b: Affine, combine: Callable[[Scalar, Scalar], Scalar], name: str) -> Affine:
+def _sum(a: F, b: F, combine: Callable[[Scalar, Scalar], Scalar], name: str) -> F:
     if b.is_scalar and is_zero(b.centre):
         return _with_flags_of(a, b)
     if a.is_scalar and is_zero(a.centre):
@@ -68,12 +68,12 @@ def _sum(a: Affine, b: Affine, combine: Callable[[Scalar, Scalar], Scalar], name
     return a.make(centre, terms, error, budget, a.flags.meet(b.flags), _beside(a, b, name))
 
 
-def _with_flags_of(kept: Affine, dropped: Affine) -> Affine:
+def _with_flags_of(kept: F, dropped: F) -> F:
     """A number with the flags of another one too."""
     return kept.make(kept.centre, kept.terms, kept.error, kept.budget, kept.flags.meet(dropped.flags), kept.bounds)
 
 
-def _matched(a: Affine, b: Affine) -> Affine:
+def _matched(a: F, b: F) -> F:
     """A constant with credit for this sum and for a square or product after it, which costs nothing while tracing."""
     wanted = min(b.budget.credit, _AFTER_CONSTANT)
     if not a.is_constant or a.budget.credit >= wanted:
@@ -82,7 +82,7 @@ def _matched(a: Affine, b: Affine) -> Affine:
     return a.make(a.centre, a.terms, error, budget, bounds=a.bounds)
 
 
-def mul(a: Affine, b: Affine) -> Affine:
+def mul(a: F, b: F) -> F:
     """a * b, K09 eq. 15 with rounding."""
     for number, other in ((b, a), (a, b)):
         if number.is_scalar or (number.is_constant and number.error <= abs(number.centre) * 2 * number.fmt.eps):
@@ -90,7 +90,7 @@ def mul(a: Affine, b: Affine) -> Affine:
     return _product(a, b)
 
 
-def _scaled(a: Affine, factor: Affine) -> Affine:
+def _scaled(a: F, factor: F) -> F:
     """a times a scalar k: price 1, and one more for a literal within eps of its real value.
 
     |k| * error keeps the credit: it is worth credit * eps * |k| M_a. The literal's own error |k| eps M_a is price 1.
@@ -115,7 +115,7 @@ def _scaled(a: Affine, factor: Affine) -> Affine:
     return a.make(centre, terms, error, budget, flags, bounds)
 
 
-def _trivially_scaled(a: Affine, k: float, flags: Flags, bounds: Interval | None) -> Affine:
+def _trivially_scaled(a: F, k: float, flags: Flags, bounds: Interval | None) -> F:
     if k == 0:
         zero = a.literal(0.0)
         return zero.make(0.0, zero.terms, 0.0, Budget(), flags, bounds)
@@ -123,7 +123,7 @@ def _trivially_scaled(a: Affine, k: float, flags: Flags, bounds: Interval | None
     return scaled.make(scaled.centre, scaled.terms, scaled.error, scaled.budget, flags, bounds)
 
 
-def stocked(a: Affine, credit: float) -> Affine:
+def stocked(a: F, credit: float) -> F:
     """The same number with at least so much credit; and with slack, unless it is exact."""
     if a.budget.credit >= credit and (is_zero(a.error) or a.budget.slack >= _FLUSHED):
         return a
@@ -131,7 +131,7 @@ def stocked(a: Affine, credit: float) -> Affine:
     return a.make(a.centre, a.terms, error, budget, bounds=a.bounds)
 
 
-def _product(a: Affine, b: Affine) -> Affine:
+def _product(a: F, b: F) -> F:
     """The general product.
 
     With A = |c_a|, U = sum |u_a|, and B, V alike: c is rounded by eps A B, each term by at most 2 eps (|c_a v| + |c_b
@@ -159,7 +159,7 @@ def _product(a: Affine, b: Affine) -> Affine:
     return a.make(centre, terms, error, budget, a.flags.meet(b.flags), _beside(a, b, "mul"))
 
 
-def sqr(a: Affine) -> Affine:
+def sqr(a: F) -> F:
     """a**2 with the quadratic part in [0, r**2], r the radius: its half goes to the centre.
 
     Rounding costs c**2 + r**2/2 two roundings and each term one: price 2 of M**2 <= (|c| + r)**2. The error
@@ -185,13 +185,13 @@ def sqr(a: Affine) -> Affine:
     return a.make(centre, terms, error, after, bounds=bounds)
 
 
-def powi(a: Affine, n: int) -> Affine:
+def powi(a: F, n: int) -> F:
     """a**n by repeated squares."""
     form = Number.powi(a, n)
     return form if n < 2 or not a.system.intersect else form.within(a.interval().powi(n))
 
 
-def _beside(a: Affine, b: Affine, operation: str) -> Interval | None:
+def _beside(a: Form, b: Form, operation: str) -> Interval | None:
     """The same operation on the ranges, where the system keeps intervals."""
     if not a.system.intersect:
         return None

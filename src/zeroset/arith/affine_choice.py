@@ -7,10 +7,9 @@ max(a, b) = L a + (1-L) b + w with L = hi/(hi - lo) and 0 <= w <= max((1-L) hi, 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from zeroset.arith import scalar as s
 from zeroset.arith.affine_arithmetic import stocked
+from zeroset.arith.affine_form import F, Form
 from zeroset.arith.budget import Budget, funded, quanta
 from zeroset.arith.condition import Undecided
 from zeroset.arith.interval import Interval, IntervalCondition
@@ -19,27 +18,24 @@ from zeroset.arith.linearise import narrower
 from zeroset.arith.number import Number
 from zeroset.arith.scalar import Scalar, fma, ge, gt, is_literal, le, lt, select
 
-if TYPE_CHECKING:
-    from zeroset.arith.affine import Affine
-
 __all__ = ["AffineCondition", "absolute", "floor", "larger", "less", "less_equal", "mod", "sign", "smaller"]
 
 _MIXTURE = 4.0
 
 
-def larger(a: Affine, b: Affine) -> Affine:
+def larger(a: F, b: F) -> F:
     """The larger of two forms."""
     bounds = a.interval().max(b.interval()) if a.system.intersect else None
     return _extreme(a, b, 1.0).within(bounds)
 
 
-def smaller(a: Affine, b: Affine) -> Affine:
+def smaller(a: F, b: F) -> F:
     """The smaller of two forms."""
     bounds = a.interval().min(b.interval()) if a.system.intersect else None
     return _extreme(a, b, -1.0).within(bounds)
 
 
-def _extreme(a: Affine, b: Affine, sign: float) -> Affine:
+def _extreme(a: F, b: F, sign: float) -> F:
     """max for sign 1; for -1 the same weights swapped and the remainder taken off.
 
     The weights add to 1 within eps times the second, each product and sum rounds once: price 4, of
@@ -67,7 +63,7 @@ def _extreme(a: Affine, b: Affine, sign: float) -> Affine:
     return a.make(centre, terms, error, budget, a.flags.meet(b.flags))
 
 
-def absolute(a: Affine) -> Affine:
+def absolute(a: F) -> F:
     """|a| = S a + w for S = (hi + lo)/(hi - lo) and 0 <= w <= max((1-S) hi, -(1+S) lo), lo <= 0 <= hi.
 
     The product and the sum round once each, relative to the result and to w: price 2.
@@ -87,28 +83,28 @@ def absolute(a: Affine) -> Affine:
     return a.make(centre, terms, error, budget).within(form.abs())
 
 
-def sign(a: Affine) -> Affine:
+def sign(a: F) -> F:
     """-1, 0 or 1."""
     return a.system.from_interval(a.interval().sign())
 
 
-def floor(a: Affine) -> Affine:
+def floor(a: F) -> F:
     """The largest integer at or below, a constant where the range decides."""
     return a.system.from_interval(a.interval().floor())
 
 
-def mod(a: Affine, b: Affine) -> Affine:
+def mod(a: F, b: F) -> F:
     """a - b floor(a/b), with the slope of ``a`` where the floor is decided."""
     return narrower(Number.mod(a, b), *mod_and_steps(a.interval(), b.interval()))
 
 
-def less(a: Affine, b: Affine) -> AffineCondition:
+def less(a: F, b: F) -> AffineCondition[F]:
     """a < b, decided by the range of the difference, in which common terms cancel."""
     difference = a.sub(b).interval()
     return AffineCondition(lt(difference.hi, 0.0), ge(difference.lo, 0.0), difference.flags, _shown(difference))
 
 
-def less_equal(a: Affine, b: Affine) -> AffineCondition:
+def less_equal(a: F, b: F) -> AffineCondition[F]:
     """a <= b, likewise."""
     difference = a.sub(b).interval()
     return AffineCondition(le(difference.hi, 0.0), gt(difference.lo, 0.0), difference.flags, _shown(difference))
@@ -118,12 +114,12 @@ def _shown(x: Interval) -> Scalar:
     return x.hi if is_literal(x.lo) else x.lo
 
 
-class AffineCondition(Undecided["Affine"]):
+class AffineCondition(Undecided[F]):
     """A comparison of affine forms."""
 
     __slots__ = ()
 
-    def select(self, a: Affine, b: Affine) -> Affine:
+    def select(self, a: F, b: F) -> F:
         """One of two forms; where undecided their mean, within half the range of their difference."""
         if is_literal(self.true, self.false) and (self.true or self.false):
             chosen = a if self.true else b
@@ -150,7 +146,7 @@ class AffineCondition(Undecided["Affine"]):
         mean = s.add(s.mul(0.5, s.add(a, b)), spread)
         return select(self.true, a, select(self.false, b, mean, self.like), self.like)
 
-    def _between(self, a: Affine, b: Affine) -> Interval | None:
+    def _between(self, a: Form, b: Form) -> Interval | None:
         if not a.system.intersect:
             return None
         return IntervalCondition(self.true, self.false, self.flags, self.like).select(a.interval(), b.interval())

@@ -23,26 +23,26 @@ from zeroset.arith.scalar import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
-    from zeroset.arith.affine import Affine
+    from zeroset.arith.affine_form import F
 
 _HALF_PI = (1.5707963267948966, 1.5707963267948968)
 
 __all__ = ["acos", "asin", "atan", "atan2", "cos", "sin", "tan"]
 
 
-def sin(a: Affine) -> Affine:
+def sin(a: F) -> F:
     """The sine."""
     sine, cosine = elementary.sincos(a.fmt, point(a))
     return _wave(a, "sin", sine, cosine)
 
 
-def cos(a: Affine) -> Affine:
+def cos(a: F) -> F:
     """The cosine."""
     sine, cosine = elementary.sincos(a.fmt, point(a))
     return _wave(a, "cos", cosine, -sine)
 
 
-def _wave(a: Affine, name: str, value: Scalar, slope: Scalar) -> Affine:
+def _wave(a: F, name: str, value: Scalar, slope: Scalar) -> F:
     """f(p + d) = f(p) cos d + f'(p) sin d, so w is between 0 and -f(p)/2, within |f'(p) d|/6.
 
     That needs no values at the ends of the range; the fallback is [-1, 1], unless an interval goes along.
@@ -63,7 +63,7 @@ def _wave(a: Affine, name: str, value: Scalar, slope: Scalar) -> Affine:
     return linearise(a, enclosure, Expansion(value, slope, low, high, error.relative, error.relative, spread, valid))
 
 
-def tan(a: Affine) -> Affine:
+def tan(a: F) -> F:
     """The tangent: f''/2 = t (1 + t**2) grows with t."""
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure = x.tan()
@@ -78,17 +78,17 @@ def tan(a: Affine) -> Affine:
     return linearise(a, enclosure, Expansion(value, slope, low, high, error.relative, accuracy, spread, valid))
 
 
-def asin(a: Affine) -> Affine:
+def asin(a: F) -> F:
     """The arc sine: f''/2 = x/2 (1 - x**2)**(-3/2) grows with x."""
     return _arc(a, "asin", 1.0)
 
 
-def acos(a: Affine) -> Affine:
+def acos(a: F) -> F:
     """The arc cosine: pi/2 - asin(x)."""
     return _arc(a, "acos", -1.0)
 
 
-def _arc(a: Affine, name: str, sign: float) -> Affine:
+def _arc(a: F, name: str, sign: float) -> F:
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure: Interval = getattr(x, name)()
     slope = s.div(sign, s.sqrt(_leg(p)))
@@ -107,7 +107,7 @@ def _leg(x: Scalar) -> Scalar:
     return maximum((1.0 - x) * (1.0 + x), 0.0)
 
 
-def atan(a: Affine) -> Affine:
+def atan(a: F) -> F:
     """The arc tangent: f''/2 = -x/(1 + x**2)**2, at most 3 sqrt(3)/16 in size."""
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure = x.atan()
@@ -122,7 +122,7 @@ def atan(a: Affine) -> Affine:
     return linearise(a, enclosure, Expansion(elementary.atan(fmt, p), slope, low, high, error, 4.0, valid=valid))
 
 
-def atan2(y: Affine, x: Affine) -> Affine:
+def atan2(y: F, x: F) -> F:
     """The angle: atan(y/x) right of the origin, atan(-x/y) a quarter turn on above and below it.
 
     Left of the origin, across or on the axis, the interval is all there is.

@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from zeroset.arith import scalar as s
 from zeroset.arith.budget import MARGIN, Budget, funded, quanta
-from zeroset.arith.scalar import Scalar, absolute, add, fma, maximum, minimum, mul, sub
+from zeroset.arith.scalar import Scalar, absolute, add, fma, mul
 
 if TYPE_CHECKING:
-    from zeroset.arith.affine import Affine
+    from zeroset.arith.affine_form import Form
     from zeroset.arith.format import Format
 
-__all__ = ["ENOUGH", "PRICE", "bend_reach", "product", "square"]
+__all__ = ["ENOUGH", "PRICE", "product", "square"]
 
-Form = tuple[Scalar, tuple[Scalar, ...], Scalar, Budget]
+Coefficients = tuple[Scalar, tuple[Scalar, ...], Scalar, Budget]
 """Centre, terms, error and account of a form."""
 PRICE = 3.0
 """Roundings that each of a product's products of coefficients goes through at most, its sums included."""
@@ -41,7 +41,7 @@ class _Parts(NamedTuple):
     rest: Scalar
 
     @classmethod
-    def of(cls, a: Affine) -> _Parts:
+    def of(cls, a: Form) -> _Parts:
         rest = a.error
         for term in a.terms[:-2]:
             rest = add(absolute(term), rest)
@@ -56,7 +56,7 @@ def _size(term: Scalar) -> Scalar:
     return term if s.is_zero(term) else absolute(term)
 
 
-def product(a: Affine, b: Affine) -> Form:
+def product(a: Form, b: Form) -> Coefficients:
     """The product of two forms with credit for it.
 
     All products of coefficients together are at most M_a M_b, and each is rounded PRICE times at most, those of T3 and
@@ -76,7 +76,7 @@ def product(a: Affine, b: Affine) -> Form:
     return _form(a.fmt, mul(a.centre, b.centre), terms, error, budget, lines, bends, mixed)
 
 
-def square(a: Affine) -> Form:
+def square(a: Form) -> Coefficients:
     """The square of a form with credit ``ENOUGH``; that of the rest is in [0, r**2], and its half goes to the centre.
 
     With X = |c| + k, k and r as for a product, the error 2 |c| error + 2 k r + r**2/2 + 16 q eps r**2 of a form with
@@ -106,7 +106,7 @@ def _form(
     lines: Scalar,
     bends: Scalar,
     mixed: Scalar,
-) -> Form:
+) -> Coefficients:
     """With the products of lines and bends put where they belong: halves of them to 1, T1 and T2, and to the error."""
     centre = fma(add(lines, bends), 0.5, centre)
     terms[-2] = fma(mixed, 0.5, terms[-2])
@@ -114,14 +114,3 @@ def _form(
     error = fma(add(_size(mixed), _size(bends)), 0.5, error)
     error, after = funded(fmt, centre, tuple(terms), error, budget, PRICE)
     return centre, tuple(terms), error, after
-
-
-def bend_reach(line: Scalar, bend: Scalar) -> Scalar:
-    """How far line * e + |bend| T2(e) may be below 0 for e in [-1, 1].
-
-    T2 is convex: it lies above its tangents at 0, at 1/2 and at 1, the first of which is the plain sum.
-    """
-    steep, size = _size(line), _size(bend)
-    at_half = sub(maximum(steep, mul(size, 2.0)), mul(size, 0.5))
-    at_one = sub(maximum(steep, mul(size, 4.0)), size)
-    return minimum(add(steep, size), minimum(at_half, at_one))

@@ -32,7 +32,7 @@ from zeroset.arith.scalar import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
-    from zeroset.arith.affine import Affine
+    from zeroset.arith.affine_form import F, Form
 
 __all__ = [
     "acos", "asin", "atan", "atan2", "cbrt", "cos", "cosh", "divide", "exp", "log", "narrower", "power",
@@ -40,7 +40,7 @@ __all__ = [
 ]  # fmt: skip
 
 
-def _reciprocal(a: Affine) -> tuple[Affine, Mask]:
+def _reciprocal(a: F) -> tuple[F, Mask]:
     """1/a, and where ``a`` certainly keeps away from 0; w = 1/x and h = 1/p, exactly."""
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure = x.literal(1.0).div(x)
@@ -52,7 +52,7 @@ def _reciprocal(a: Affine) -> tuple[Affine, Mask]:
     ), regular
 
 
-def divide(a: Affine, b: Affine) -> Affine:
+def divide(a: F, b: F) -> F:
     """a / b; the whole line where ``b`` may be 0."""
     divisor = b.interval()
     known = b.is_constant and is_literal(divisor.lo, divisor.hi)
@@ -66,7 +66,7 @@ def divide(a: Affine, b: Affine) -> Affine:
     return chosen.make(chosen.centre, chosen.terms, chosen.error, chosen.budget, quotient.flags, bounds)
 
 
-def sqrt(a: Affine) -> Affine:
+def sqrt(a: F) -> F:
     """The square root: w = -2 q/(sqrt(x) + q)**2 and h = 1/(2 q) with q = sqrt(p), which holds down to x = 0."""
     p, x = point(a), a.interval()
     enclosure = x.sqrt()
@@ -77,7 +77,7 @@ def sqrt(a: Affine) -> Affine:
     return linearise(a, enclosure, Expansion(value, slope, low, 0.0, 1.0, 3.0, valid=gt(p, a.fmt.tiny), unit=slope))
 
 
-def cbrt(a: Affine) -> Affine:
+def cbrt(a: F) -> F:
     """The cube root: w = -3 q**2 (2 q + y)/(y**2 + y q + q**2)**2, h = 1/(3 q**2) for y = cbrt(x), q = cbrt(p) of a
     sign.
 
@@ -106,7 +106,7 @@ def cbrt(a: Affine) -> Affine:
     return linearise(a, enclosure, expansion)
 
 
-def exp(a: Affine) -> Affine:
+def exp(a: F) -> F:
     """The exponential: f'' is convex, and w is never negative."""
     fmt, p, r = a.fmt, point(a), span(a)
     error = elementary.error_bound("exp", fmt)
@@ -133,7 +133,7 @@ def exp(a: Affine) -> Affine:
     )
 
 
-def log(a: Affine) -> Affine:
+def log(a: F) -> F:
     """The logarithm: -f'' = 1/x**2 is convex; with h = 1/least x, -w <= (least x/p)**2/3 + 1/6."""
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure = x.log()
@@ -145,17 +145,17 @@ def log(a: Affine) -> Affine:
     return linearise(a, enclosure, expansion)
 
 
-def sinh(a: Affine) -> Affine:
+def sinh(a: F) -> F:
     """The hyperbolic sine: f'' = f."""
     return _hyperbolic(a, "sinh", "cosh")
 
 
-def cosh(a: Affine) -> Affine:
+def cosh(a: F) -> F:
     """The hyperbolic cosine: f'' = f."""
     return _hyperbolic(a, "cosh", "sinh")
 
 
-def _hyperbolic(a: Affine, name: str, derivative: str) -> Affine:
+def _hyperbolic(a: F, name: str, derivative: str) -> F:
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure: Interval = getattr(x, name)()
     value, slope = getattr(elementary, name)(fmt, p), getattr(elementary, derivative)(fmt, p)
@@ -168,7 +168,7 @@ def _hyperbolic(a: Affine, name: str, derivative: str) -> Affine:
     return linearise(a, enclosure, Expansion(value, slope, low, high, error.relative, accuracy, absolute_error, valid))
 
 
-def tanh(a: Affine) -> Affine:
+def tanh(a: F) -> F:
     """The hyperbolic tangent: f''/2 = -t (1 - t**2), largest where |t| = 1/sqrt 3."""
     fmt, p, x = a.fmt, point(a), a.interval()
     enclosure = x.tanh()
@@ -184,13 +184,13 @@ def tanh(a: Affine) -> Affine:
     return linearise(a, enclosure, Expansion(value, slope, low, high, error, 4.0, spread))
 
 
-def power(a: Affine, b: Affine) -> Affine:
+def power(a: F, b: F) -> F:
     """a**b = exp(b log a)."""
     enclosure = a.interval().pow(b.interval())
     return narrower(exp(b.mul(log(a))), enclosure)
 
 
-def rational_power(a: Affine, exponent: tuple[int, int]) -> Affine:
+def rational_power(a: F, exponent: tuple[int, int]) -> F:
     """a**(p/q); w is c x**(p/q) for h = 1/x and c = (p/q)(p/q-1)/2, at the end where that is most."""
     p, q = exponent
     if p < 0:
@@ -203,7 +203,7 @@ def rational_power(a: Affine, exponent: tuple[int, int]) -> Affine:
     return linearise(a, enclosure, _power_expansion(a, x, exponent))
 
 
-def _power_expansion(a: Affine, x: Interval, exponent: tuple[int, int]) -> Expansion:
+def _power_expansion(a: Form, x: Interval, exponent: tuple[int, int]) -> Expansion:
     fmt, at = a.fmt, point(a)
     ratio = exponent[0] / exponent[1]
     value = elementary.powr(fmt, at, exponent)

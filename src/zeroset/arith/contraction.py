@@ -29,7 +29,7 @@ from zeroset.arith.scalar import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
-    from zeroset.arith.affine import Affine
+    from zeroset.arith.affine_form import Form
     from zeroset.arith.format import Format
 
 __all__ = ["Contraction", "contract"]
@@ -53,7 +53,7 @@ class Contraction(NamedTuple):
     rising: Mask
 
 
-def contract(form: Affine, symbol: int = 0) -> Contraction:
+def contract(form: Form, symbol: int = 0) -> Contraction:
     """The zeros of a form along one symbol; the other symbols count as error."""
     fmt, u, c = form.fmt, form.terms[symbol], form.centre
     curved = form.system.curved and symbol == len(form.terms) - 2

@@ -1,16 +1,15 @@
 """Dual numbers: a value and its gradient, over any other system.
 
 ``Dual[Real]`` gives exact normals, ``Dual[Interval]`` the range of the gradient that Mitchell's method asks for, and
-``Dual[Dual[...]]`` second derivatives. The rules are in ``dual_rules``, one a function. A derivative that is zero while
-tracing is None and costs nothing.
+``Dual[Dual[...]]`` second derivatives. The rules are in ``dual_rules``. A derivative that is zero while tracing is None
+and costs nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Generic, TypeVar
 
-from zeroset.arith import dual_rules as rules
+from zeroset.arith.dual_rules import DualRules
 from zeroset.arith.format import Format
 from zeroset.arith.number import Condition, Number, System
 from zeroset.arith.scalar import Scalar
@@ -20,12 +19,8 @@ __all__ = ["Dual", "DualCondition", "DualSystem"]
 N = TypeVar("N", bound=Number)
 
 
-class Dual(Number, Generic[N]):
-    """A value with its derivatives along some directions.
-
-    Attributes:
-        value: a number of the inner system.
-        gradient: the derivatives, numbers of the inner system; None for one that is identically 0.
+class Dual(DualRules[N], Generic[N]):
+    """A value with its derivatives along some directions; ``DualRules`` tells of its attributes.
 
     Example:
         >>> from zeroset.arith import F64, DualSystem, RealSystem
@@ -50,52 +45,9 @@ class Dual(Number, Generic[N]):
         """The system that made this number."""
         return self._system
 
-    def derivative(self, index: int) -> N:
-        """One derivative, as a number."""
-        known = self.gradient[index]
-        return self.value.literal(0.0) if known is None else known
-
     def make(self, value: N, gradient: tuple[N | None, ...]) -> Dual[N]:
         """A number of the same system."""
         return Dual(self._system, value, gradient)
-
-    def chain(self, value: N, slope: Callable[[], N]) -> Dual[N]:
-        """A function of this number, from its value and, where it is needed at all, its derivative."""
-        if all(g is None for g in self.gradient):
-            return self.make(value, self.gradient)
-        by = slope()
-        return self.make(value, tuple(None if g is None else by.mul(g) for g in self.gradient))
-
-    add = rules.add
-    sub = rules.sub
-    neg = rules.neg
-    mul = rules.mul
-    div = rules.div
-    sqr = rules.sqr
-    powi = rules.powi
-    pow = rules.power
-    powr = rules.rational_power
-    cbrt = rules.cbrt
-    sqrt = rules.sqrt
-    exp = rules.exp
-    log = rules.log
-    sin = rules.sin
-    cos = rules.cos
-    tan = rules.tan
-    asin = rules.asin
-    acos = rules.acos
-    atan = rules.atan
-    atan2 = rules.atan2
-    sinh = rules.sinh
-    cosh = rules.cosh
-    tanh = rules.tanh
-    abs = rules.absolute
-    sign = rules.sign
-    floor = rules.floor
-    ceil = rules.ceil
-    mod = rules.mod
-    max = rules.larger
-    min = rules.smaller
 
     def lt(self, other: Dual[N], /) -> DualCondition[N]:
         """The comparison of the values."""

@@ -11,12 +11,12 @@ from __future__ import annotations
 from zeroset.arith import interval_arithmetic as arithmetic
 from zeroset.arith import interval_functions as functions
 from zeroset.arith.condition import Undecided
-from zeroset.arith.flags import TOTAL, Flags
+from zeroset.arith.flags import Flags
 from zeroset.arith.format import Format
-from zeroset.arith.number import Number, System
+from zeroset.arith.interval_bounds import Bounds
+from zeroset.arith.number import System
 from zeroset.arith.rounding import lower, upper
 from zeroset.arith.scalar import (
-    Mask,
     Scalar,
     ge,
     gt,
@@ -26,22 +26,14 @@ from zeroset.arith.scalar import (
     lt,
     maximum,
     minimum,
-    not_,
-    or_,
     select,
 )  # fmt: skip
 
 __all__ = ["Interval", "IntervalCondition", "IntervalSystem"]
 
 
-class Interval(Number):
-    """All the reals between two bounds.
-
-    Attributes:
-        lo: lower bound, a scalar.
-        hi: upper bound, a scalar, not below ``lo``.
-        flags: where f is defined on the box that these are bounds for.
-        nonnegative: whether ``lo >= 0`` is known while tracing; saves operations.
+class Interval(Bounds):
+    """All the reals between two bounds; ``Bounds`` tells of its attributes.
 
     Example:
         >>> from zeroset.arith import F64, IntervalSystem
@@ -50,16 +42,9 @@ class Interval(Number):
         (0.0, True)
     """
 
-    __slots__ = ("_system", "flags", "hi", "lo", "nonnegative")
+    __slots__ = ()
 
-    def __init__(
-        self, system: IntervalSystem, lo: Scalar, hi: Scalar, flags: Flags = TOTAL, nonnegative: bool = False
-    ) -> None:
-        self._system = system
-        self.lo = lo
-        self.hi = hi
-        self.flags = flags
-        self.nonnegative = nonnegative or (is_literal(lo) and lo >= 0)
+    _system: IntervalSystem
 
     def __repr__(self) -> str:
         return f"Interval({self.lo!r}, {self.hi!r})"
@@ -69,45 +54,9 @@ class Interval(Number):
         """The system that made this number."""
         return self._system
 
-    @property
-    def fmt(self) -> Format:
-        """The floating-point format of the bounds."""
-        return self._system.fmt
-
-    @property
-    def defined(self) -> Mask:
-        """Whether f is certainly defined and continuous on the whole box."""
-        return self.flags.defined
-
-    @property
-    def empty(self) -> Mask:
-        """Whether f is certainly defined nowhere on the box."""
-        return self.flags.empty
-
-    def make(self, lo: Scalar, hi: Scalar, flags: Flags | None = None, nonnegative: bool = False) -> Interval:
-        """An interval of the same system, by default with the same flags."""
-        return Interval(self._system, lo, hi, self.flags if flags is None else flags, nonnegative)
-
-    def is_point(self, value: float) -> bool:
-        """Whether this is literally the number ``value``, everywhere defined."""
-        return is_literal(self.lo, self.hi) and self.lo == self.hi == value and self.flags.is_total
-
-    def contains_zero(self) -> Mask:
-        """False only where f certainly has no zero; true for bounds that are NaN."""
-        return not_(or_(*self.signs(), self.empty))
-
-    def signs(self) -> tuple[Mask, Mask]:
-        """Whether f is certainly above 0, and whether it is certainly below."""
-        return gt(self.lo, 0.0), lt(self.hi, 0.0)
-
     def interval(self) -> Interval:
         """This interval: the range of a number, on every enclosing system."""
         return self
-
-    def meet(self, other: Interval) -> Interval:
-        """The intersection of two enclosures of the same function."""
-        lo, hi = maximum(self.lo, other.lo), minimum(self.hi, other.hi)
-        return self.make(lo, hi, self.flags.meet(other.flags), self.nonnegative or other.nonnegative)
 
     add = arithmetic.add
     sub = arithmetic.sub

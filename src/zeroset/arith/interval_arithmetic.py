@@ -18,7 +18,7 @@ from zeroset.arith.rounding import ROUNDED, clamp, lower, lower_nonnegative, upp
 from zeroset.arith.scalar import Mask, Scalar, and_, ge, gt, is_literal, le, lt, maximum, minimum, not_, or_, select
 
 if TYPE_CHECKING:
-    from zeroset.arith.interval import Interval
+    from zeroset.arith.interval_bounds import B, Bounds
 
 __all__ = [
     "absolute", "add", "divide", "floor", "larger", "literal_reciprocal", "mod", "mul", "neg", "powi", "sign",
@@ -29,7 +29,7 @@ _NARROW = 1e-4
 """Relative width up to which a constant interval is treated as its middle with an error."""
 
 
-def add(a: Interval, b: Interval) -> Interval:
+def add(a: B, b: B) -> B:
     """a + b."""
     if a.is_point(0.0) or b.is_point(0.0):
         return b if a.is_point(0.0) else a
@@ -40,26 +40,26 @@ def add(a: Interval, b: Interval) -> Interval:
     return a.make(lower(fmt, a.lo + b.lo), hi, flags)
 
 
-def sub(a: Interval, b: Interval) -> Interval:
+def sub(a: B, b: B) -> B:
     """a - b."""
     if a.is_point(0.0) or b.is_point(0.0):
         return neg(b) if a.is_point(0.0) else a
     return a.make(lower(a.fmt, a.lo - b.hi), upper(a.fmt, a.hi - b.lo), a.flags.meet(b.flags))
 
 
-def neg(a: Interval) -> Interval:
+def neg(a: B) -> B:
     """-a, exactly."""
     return a.make(s.neg(a.hi), s.neg(a.lo))
 
 
-def mul(a: Interval, b: Interval) -> Interval:
+def mul(a: B, b: B) -> B:
     """a * b: two products where signs are known while tracing, else four; one a bound for a constant factor."""
     if is_literal(b.lo, b.hi):
         return _times_constant(a, b)
     return _times_constant(b, a) if is_literal(a.lo, a.hi) else _product(a, b)
 
 
-def _product(a: Interval, b: Interval) -> Interval:
+def _product(a: B, b: B) -> B:
     if a.nonnegative and not b.nonnegative:
         a, b = b, a
     lows, highs = [a.lo * b.lo], [a.hi * b.hi]
@@ -71,9 +71,7 @@ def _product(a: Interval, b: Interval) -> Interval:
     return _clamped(a, lows, highs, ROUNDED, a.flags.meet(b.flags), a.nonnegative and b.nonnegative)
 
 
-def _clamped(
-    a: Interval, lows: list[Scalar], highs: list[Scalar], k: float, flags: Flags, nonnegative: bool
-) -> Interval:
+def _clamped(a: B, lows: list[Scalar], highs: list[Scalar], k: float, flags: Flags, nonnegative: bool) -> B:
     fmt = a.fmt
     lo, hi = clamp(fmt, _fold(minimum, lows)), clamp(fmt, _fold(maximum, highs))
     if nonnegative:
@@ -88,7 +86,7 @@ def _fold(function: Callable[[Scalar, Scalar], Scalar], values: list[Scalar]) ->
     return result
 
 
-def _times_constant(a: Interval, constant: Interval) -> Interval:
+def _times_constant(a: B, constant: B) -> B:
     lo, hi, fmt = constant.lo, constant.hi, a.fmt
     flags = a.flags.meet(constant.flags)
     nonnegative = a.nonnegative and lo >= 0
@@ -110,7 +108,7 @@ def _is_short_power_of_two(value: float) -> bool:
     return abs(math.frexp(value)[0]) == 0.5 and abs(value) <= 256.0
 
 
-def _scaled_exactly(a: Interval, factor: float, flags: Flags, nonnegative: bool) -> Interval:
+def _scaled_exactly(a: B, factor: float, flags: Flags, nonnegative: bool) -> B:
     lo, hi = s.mul(a.lo, factor), s.mul(a.hi, factor)
     if factor < 0:
         lo, hi = hi, lo
@@ -120,7 +118,7 @@ def _scaled_exactly(a: Interval, factor: float, flags: Flags, nonnegative: bool)
     return a.make(lo, hi, flags, nonnegative)
 
 
-def divide(a: Interval, b: Interval) -> Interval:
+def divide(a: B, b: B) -> B:
     """a / b: the whole line, or half of it, where b may be 0."""
     fmt = a.fmt
     if is_literal(b.lo, b.hi) and (b.lo > fmt.tiny or b.hi < -fmt.tiny):
@@ -135,13 +133,13 @@ def divide(a: Interval, b: Interval) -> Interval:
     return a.make(lo, hi, quotient.flags, quotient.nonnegative)
 
 
-def literal_reciprocal(constant: Interval) -> tuple[float, float]:
+def literal_reciprocal(constant: Bounds) -> tuple[float, float]:
     """Bounds of 1/constant for a literal interval without 0."""
     low, high = 1 / Fraction(constant.hi), 1 / Fraction(constant.lo)
     return -constant.fmt.ceiling(-low), constant.fmt.ceiling(high)
 
 
-def _reciprocal(b: Interval) -> tuple[Interval, Mask]:
+def _reciprocal(b: B) -> tuple[B, Mask]:
     """1/b, and where a pole may lie in it: within tiny of 0, for 1/tiny is as good as infinite."""
     fmt = b.fmt
     above, below = gt(b.lo, fmt.tiny), False if b.nonnegative else lt(b.hi, -fmt.tiny)
@@ -160,24 +158,24 @@ def _reciprocal(b: Interval) -> tuple[Interval, Mask]:
     return b.make(lo, hi, flags), not_(defined)
 
 
-def magnitudes(a: Interval) -> tuple[Scalar, Scalar]:
+def magnitudes(a: Bounds) -> tuple[Scalar, Scalar]:
     """Bounds of |a|."""
     if a.nonnegative:
         return a.lo, a.hi
     return maximum(maximum(a.lo, s.neg(a.hi)), 0.0), maximum(s.neg(a.lo), a.hi)
 
 
-def absolute(a: Interval) -> Interval:
+def absolute(a: B) -> B:
     """|a|, exactly."""
     return a.make(*magnitudes(a), nonnegative=True)
 
 
-def sqr(a: Interval) -> Interval:
+def sqr(a: B) -> B:
     """a**2."""
     return powi(a, 2)
 
 
-def powi(a: Interval, n: int) -> Interval:
+def powi(a: B, n: int) -> B:
     """a**n between the powers of the ends, or of the least and the largest |a| for even n."""
     if n <= 1:
         return Number.powi(a, n)
@@ -195,24 +193,24 @@ def _power(x: Scalar, n: int) -> Scalar:
     return half * half * x if n % 2 else half * half
 
 
-def sign(a: Interval) -> Interval:
+def sign(a: B) -> B:
     """-1, 0 or 1; a jump is possible unless both ends have the same sign."""
     low, high = s.sign(a.lo), s.sign(a.hi)
     return a.make(low, high, a.flags.within(ge(low, high)), a.nonnegative)
 
 
-def floor(a: Interval) -> Interval:
+def floor(a: B) -> B:
     """The floor; a jump is possible unless both ends have the same."""
     low, high = s.floor(a.lo), s.floor(a.hi)
     return a.make(low, high, a.flags.within(ge(low, high)), a.nonnegative)
 
 
-def mod(a: Interval, b: Interval) -> Interval:
+def mod(a: B, b: B) -> B:
     """a - b floor(a/b), which lies between 0 and b."""
     return mod_and_steps(a, b)[0]
 
 
-def mod_and_steps(a: Interval, b: Interval) -> tuple[Interval, Mask]:
+def mod_and_steps(a: B, b: B) -> tuple[B, Mask]:
     """a mod b, and where the quotient is bounded, so that its floor means something."""
     quotient = divide(a, b)
     bounded = and_(gt(quotient.lo, -0.5 * a.fmt.big), lt(quotient.hi, 0.5 * a.fmt.big))
@@ -224,13 +222,13 @@ def mod_and_steps(a: Interval, b: Interval) -> tuple[Interval, Mask]:
     return a.make(lo, hi, plain.flags.within(bounded), b.nonnegative), bounded
 
 
-def larger(a: Interval, b: Interval) -> Interval:
+def larger(a: B, b: B) -> B:
     """The larger of two, exactly."""
     flags = a.flags.meet(b.flags)
     return a.make(maximum(a.lo, b.lo), maximum(a.hi, b.hi), flags, a.nonnegative or b.nonnegative)
 
 
-def smaller(a: Interval, b: Interval) -> Interval:
+def smaller(a: B, b: B) -> B:
     """The smaller of two, exactly."""
     flags = a.flags.meet(b.flags)
     return a.make(minimum(a.lo, b.lo), minimum(a.hi, b.hi), flags, a.nonnegative and b.nonnegative)

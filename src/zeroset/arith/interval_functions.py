@@ -17,7 +17,7 @@ from zeroset.arith.rounding import lower, lower_nonnegative, upper, upper_nonneg
 from zeroset.arith.scalar import Scalar, and_, ge, gt, is_literal, le, lt, maximum, minimum, or_, select
 
 if TYPE_CHECKING:
-    from zeroset.arith.interval import Interval
+    from zeroset.arith.interval_bounds import B, Bounds
 
 __all__ = [
     "acos", "asin", "atan", "atan2", "cbrt", "cos", "cosh", "exp", "log", "power", "rational_power", "sin", "sinh",
@@ -27,9 +27,7 @@ __all__ = [
 _PI_ABOVE = {"f32": 3.1415929794311523, "f64": 3.1415926535897936}
 
 
-def ends(
-    x: Interval, name: str, lo: Scalar, hi: Scalar, flags: Flags | None = None, nonnegative: bool = False
-) -> Interval:
+def ends(x: B, name: str, lo: Scalar, hi: Scalar, flags: Flags | None = None, nonnegative: bool = False) -> B:
     """The interval between f(lo) and f(hi), moved outward by the stated error of f."""
     fmt = x.fmt
     function, bound = getattr(elementary, name), elementary.error_bound(name, fmt)
@@ -42,12 +40,12 @@ def ends(
     return x.make(lower(fmt, low, k, slack), upper(fmt, high, k, slack), flags)
 
 
-def within(x: Interval, lo: float, hi: float) -> Interval:
+def within(x: B, lo: float, hi: float) -> B:
     """An interval cut to bounds that its function is known to keep."""
     return x.make(minimum(maximum(x.lo, lo), hi), maximum(minimum(x.hi, hi), lo), nonnegative=x.nonnegative or lo >= 0)
 
 
-def sqrt(x: Interval) -> Interval:
+def sqrt(x: B) -> B:
     """The square root of the part that is not negative."""
     fmt = x.fmt
     lo, hi = (x.lo, x.hi) if x.nonnegative else (maximum(x.lo, 0.0), maximum(x.hi, 0.0))
@@ -55,12 +53,12 @@ def sqrt(x: Interval) -> Interval:
     return x.make(lower_nonnegative(fmt, s.sqrt(lo)), upper_nonnegative(fmt, s.sqrt(hi)), flags, nonnegative=True)
 
 
-def exp(x: Interval) -> Interval:
+def exp(x: B) -> B:
     """e**x; reaches ``big`` where it would pass it."""
     return ends(x, "exp", x.lo, x.hi, nonnegative=True)
 
 
-def log(x: Interval) -> Interval:
+def log(x: B) -> B:
     """The logarithm of the positive part; -big from below where that comes within ``tiny`` of 0."""
     fmt = x.fmt
     plain = ends(x, "log", x.lo, x.hi)
@@ -68,48 +66,48 @@ def log(x: Interval) -> Interval:
     return x.make(lo, plain.hi, x.flags.within(gt(x.lo, 0.0), le(x.hi, 0.0)))
 
 
-def _inside_one(x: Interval) -> Flags:
+def _inside_one(x: Bounds) -> Flags:
     return x.flags.within(and_(ge(x.lo, -1.0), le(x.hi, 1.0)), or_(gt(x.lo, 1.0), lt(x.hi, -1.0)))
 
 
-def asin(x: Interval) -> Interval:
+def asin(x: B) -> B:
     """The arc sine of the part in [-1, 1]."""
     return ends(x, "asin", x.lo, x.hi, _inside_one(x), x.nonnegative)
 
 
-def acos(x: Interval) -> Interval:
+def acos(x: B) -> B:
     """The arc cosine of the part in [-1, 1]."""
     return ends(x, "acos", x.hi, x.lo, _inside_one(x), nonnegative=True)
 
 
-def atan(x: Interval) -> Interval:
+def atan(x: B) -> B:
     """The arc tangent."""
     return ends(x, "atan", x.lo, x.hi, nonnegative=x.nonnegative)
 
 
-def sinh(x: Interval) -> Interval:
+def sinh(x: B) -> B:
     """The hyperbolic sine."""
     return ends(x, "sinh", x.lo, x.hi, nonnegative=x.nonnegative)
 
 
-def cosh(x: Interval) -> Interval:
+def cosh(x: B) -> B:
     """The hyperbolic cosine: least where |x| is."""
     size = x.abs()
     plain = ends(size, "cosh", size.lo, size.hi, nonnegative=True)
     return plain.make(maximum(plain.lo, 1.0), plain.hi, nonnegative=True)
 
 
-def tanh(x: Interval) -> Interval:
+def tanh(x: B) -> B:
     """The hyperbolic tangent."""
     return within(ends(x, "tanh", x.lo, x.hi, nonnegative=x.nonnegative), 0.0 if x.nonnegative else -1.0, 1.0)
 
 
-def cbrt(x: Interval) -> Interval:
+def cbrt(x: B) -> B:
     """The cube root."""
     return ends(x, "cbrt", x.lo, x.hi, nonnegative=x.nonnegative)
 
 
-def power(x: Interval, y: Interval) -> Interval:
+def power(x: B, y: B) -> B:
     """x**y = exp(y log x) on x > 0, with 0**y = 0 for y > 0."""
     positive = x.make(maximum(x.lo, 0.0), maximum(x.hi, 0.0), nonnegative=True)
     plain = exp(y.mul(log(positive)))
@@ -120,7 +118,7 @@ def power(x: Interval, y: Interval) -> Interval:
     return plain.make(select(reached, 0.0, plain.lo, like=plain.hi), plain.hi, flags, nonnegative=True)
 
 
-def rational_power(x: Interval, exponent: tuple[int, int]) -> Interval:
+def rational_power(x: B, exponent: tuple[int, int]) -> B:
     """x**(p/q) of the part that is not negative: by roots where q divides 12, else by logarithm."""
     p, q = exponent
     if p < 0:
@@ -137,7 +135,7 @@ def rational_power(x: Interval, exponent: tuple[int, int]) -> Interval:
     return plain.make(lo, plain.hi, flags, nonnegative=True)
 
 
-def atan2(y: Interval, x: Interval) -> Interval:
+def atan2(y: B, x: B) -> B:
     """The angle of the points of a box: between two of its corners unless it meets the negative x axis."""
     fmt = y.fmt
     across = and_(le(y.lo, 0.0), ge(y.hi, 0.0))

@@ -27,26 +27,26 @@ from zeroset.arith.scalar import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
-    from zeroset.arith.interval import Interval
+    from zeroset.arith.interval_bounds import B, Bounds
 
 __all__ = ["cos", "sin", "tan"]
 
 
-def sin(x: Interval) -> Interval:
+def sin(x: B) -> B:
     """The sine: maxima at a quarter turn, minima at three quarters."""
     return _wave(x, "sin", 0.25, 0.75)
 
 
-def cos(x: Interval) -> Interval:
+def cos(x: B) -> B:
     """The cosine: maxima at full turns, minima at half turns."""
     return _wave(x, "cos", 0.0, 0.5)
 
 
-def _size(x: Interval) -> Scalar:
+def _size(x: Bounds) -> Scalar:
     return maximum(absolute(x.lo), absolute(x.hi))
 
 
-def _holds_turn(x: Interval, size: Scalar, period: float, phase: float) -> Mask:
+def _holds_turn(x: Bounds, size: Scalar, period: float, phase: float) -> Mask:
     """Whether x/period - phase is an integer somewhere in the interval, or may be.
 
     The quotient rounds twice (the constant and the product), the difference once, each by at most eps times
@@ -58,7 +58,7 @@ def _holds_turn(x: Interval, size: Scalar, period: float, phase: float) -> Mask:
     return gt(floor(last), floor(first))
 
 
-def _wave(x: Interval, name: str, top: float, bottom: float) -> Interval:
+def _wave(x: B, name: str, top: float, bottom: float) -> B:
     fmt, size = x.fmt, _size(x)
     bound = elementary.error_bound(name, fmt)
     function, k, slack = getattr(elementary, name), bound.relative + 1.1, bound.slope * size
@@ -71,7 +71,7 @@ def _wave(x: Interval, name: str, top: float, bottom: float) -> Interval:
     return x.make(select(down, -1.0, low, like=x.lo), select(up, 1.0, high, like=x.lo))
 
 
-def tan(x: Interval) -> Interval:
+def tan(x: B) -> B:
     """The tangent: increasing between poles, everything across one."""
     fmt, size = x.fmt, _size(x)
     bound = elementary.error_bound("tan", fmt)

@@ -30,7 +30,7 @@ from zeroset.arith.scalar import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
-    from zeroset.arith.affine import Affine
+    from zeroset.arith.affine_form import F, Form
     from zeroset.arith.interval import Interval
 
 __all__ = ["Expansion", "linearise", "narrower", "picked", "point", "span"]
@@ -62,14 +62,14 @@ class Expansion(NamedTuple):
     unit: Scalar = 1.0
 
 
-def point(a: Affine) -> Scalar:
+def point(a: Form) -> Scalar:
     """Where to expand: the centre, brought into the range where an interval goes along with the form."""
     if a.bounds is None:
         return a.centre
     return minimum(maximum(a.centre, a.bounds.lo), a.bounds.hi)
 
 
-def span(a: Affine) -> Scalar:
+def span(a: Form) -> Scalar:
     """How far the argument may be from ``point(a)``."""
     if a.bounds is None:
         return a.reach()
@@ -77,7 +77,7 @@ def span(a: Affine) -> Scalar:
     return maximum(a.bounds.hi - moved, moved - a.bounds.lo)
 
 
-def linearise(a: Affine, enclosure: Interval, at: Expansion) -> Affine:
+def linearise(a: F, enclosure: Interval, at: Expansion) -> F:
     """The form of f(a).
 
     Args:
@@ -113,12 +113,12 @@ def linearise(a: Affine, enclosure: Interval, at: Expansion) -> Affine:
     return _narrower(form, fallback, at.valid)
 
 
-def narrower(form: Affine, enclosure: Interval, valid: Mask = True) -> Affine:
+def narrower(form: F, enclosure: Interval, valid: Mask = True) -> F:
     """Lane by lane the form, or the interval where that is much narrower or the form is not valid."""
     return _narrower(form, form.system.from_interval(enclosure), valid)
 
 
-def _narrower(form: Affine, other: Affine, valid: Mask) -> Affine:
+def _narrower(form: F, other: F, valid: Mask) -> F:
     # By the errors, not the radii: a form about as wide as the interval still knows its slope, which later operations
     # and the contraction live on. A comparison with NaN is false: what overflowed is dropped.
     use = and_(valid, lt(form.error, 0.5 * other.error))
@@ -126,7 +126,7 @@ def _narrower(form: Affine, other: Affine, valid: Mask) -> Affine:
     return chosen.make(chosen.centre, chosen.terms, chosen.error, chosen.budget, other.flags, other.bounds)
 
 
-def picked(mask: Mask, a: Affine, b: Affine, like: Scalar = None) -> Affine:
+def picked(mask: Mask, a: F, b: F, like: Scalar = None) -> F:
     """``a`` where the mask holds, else ``b``; ``like`` shows the run-time type where both are constants."""
     bounds = None
     if a.bounds is not None and b.bounds is not None:

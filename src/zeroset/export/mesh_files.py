@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from zeroset.errors import OutputError, did_you_mean
 
 if TYPE_CHECKING:
-    from zeroset.export.triangles import Mesh
+    import numpy as np
+    import numpy.typing as npt
 
 FORMATS = {".stl": "stl", ".obj": "obj", ".ply": "ply", ".glb": "glb"}
 """Mesh formats by suffix."""
@@ -36,21 +37,24 @@ def mesh_format(path: str | os.PathLike[str]) -> str:
     return kind
 
 
-def encode(mesh: Mesh, kind: str) -> bytes:
+def encode(
+    vertices: npt.NDArray[np.floating], faces: npt.NDArray[np.uint32], normals: npt.NDArray[np.floating], kind: str
+) -> bytes:
     """The bytes of a mesh file.
 
     Args:
-        mesh: what to write.
+        vertices: (N, 3), points of the mesh.
+        faces: (M, 3), vertices of each triangle.
+        normals: (N, 3), one at each vertex.
         kind: a format as ``mesh_format`` gives it.
     """
     import trimesh
 
-    vertices, normals = mesh.vertices, mesh.normals
     if kind == "glb":
         # What is upwards here is z, and y in glTF.
         vertices, normals = (v[:, (0, 2, 1)] * (1.0, 1.0, -1.0) for v in (vertices, normals))
     # As it is: trimesh would merge and reorder vertices.
-    shape = trimesh.Trimesh(vertices, mesh.faces, vertex_normals=normals, process=False)
+    shape = trimesh.Trimesh(vertices, faces, vertex_normals=normals, process=False)
     options: dict[str, Any] = {} if kind == "stl" else {"include_normals": True}
     if kind == "ply":
         options = {"vertex_normal": True}

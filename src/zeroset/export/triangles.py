@@ -68,7 +68,7 @@ class Mesh:
         from zeroset.export.mesh_files import encode, mesh_format
 
         target = Path(path)
-        data = encode(self, mesh_format(target))
+        data = encode(self.vertices, self.faces, self.normals, mesh_format(target))
         with replacing(target) as file:
             file.write(data)
         return target

@@ -1,8 +1,8 @@
 """What the user means: one hash-consed DAG from formula text, SymPy, NumPy-style callables, or operators.
 
 In reading order: `ops` (the operator table), `dag` (nodes), `rules` and its fellows (exact rewriting), `derived`,
-`tokens` / `grammar` / `parse` (text), `trace` (callables), `sympy_`; and what can be asked of a DAG: `evaluate` (on
-any number system), `constants`, `polynomial`, `text`. Nothing here knows how f is drawn.
+`tokens` / `grammar` / `parse` (text), `trace` / `ufuncs` (callables), `sympy_`; and what can be asked of a DAG:
+`evaluate` (on any number system), `constants`, `polynomial`, `text`. Nothing here knows how f is drawn.
 """
 
 from __future__ import annotations

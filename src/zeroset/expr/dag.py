@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from zeroset.errors import FormulaError
 from zeroset.expr.facts import CONDITION, NONNEGATIVE, POSITIVE, TOTAL, check_kinds, flags_of
 from zeroset.expr.operators import Operators
-from zeroset.expr.ops import OPS
+from zeroset.expr.ops import OPS, Data
 from zeroset.hashes import blake2b
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
 __all__ = ["PI", "Data", "Expr", "constant", "made_so_far", "node", "postorder", "rational"]
 
-Data = tuple[Fraction | int | str, ...]
 Symbol = tuple[str, str]
 
 

@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING, Protocol
 
 from zeroset.errors import FormulaError
 from zeroset.expr.limits import POWER
-from zeroset.expr.ops import OPS
+from zeroset.expr.ops import OPS, Data
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from zeroset.expr.dag import Data, Expr
 
 TOTAL = 1
 """Defined at every real point."""
@@ -108,7 +106,7 @@ def _sign(op: str, args: Sequence[Known], data: Data) -> int:
     return NONNEGATIVE | first & POSITIVE if sign == "magnitude" else _SIGNS[sign]
 
 
-def check_kinds(op: str, args: Sequence[Expr]) -> None:
+def check_kinds(op: str, args: Sequence[Known]) -> None:
     """Refuse `(x < 1) + 2` and `if(x, 1, 2)`.
 
     Raises:
@@ -116,12 +114,13 @@ def check_kinds(op: str, args: Sequence[Expr]) -> None:
     """
     for position, arg in enumerate(args):
         wants_truth = op in {"and", "or", "not"} or (op == "select" and position == 0)
-        if wants_truth and not arg.is_condition:
+        is_truth = bool(arg.flags & CONDITION)
+        if wants_truth and not is_truth:
             raise FormulaError(
                 "a number stands where a condition belongs",
                 hints=("compare it with something: x > 0",),
             )
-        if arg.is_condition and not wants_truth:
+        if is_truth and not wants_truth:
             raise FormulaError(
                 "a condition stands where a number belongs",
                 hints=("make a number of it: if(x < 1, 1, 0)",),

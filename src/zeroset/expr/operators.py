@@ -2,6 +2,10 @@
 
 `Operators` is the base of `Expr` that holds them: each operator makes a rewritten node. What asks for a number
 (`if`, `float`, `math.sin`) raises an error that says what to write instead.
+
+Nodes lie at the ground, and what makes further ones of them above: the rewriter and NumPy's functions. A node that
+answers to `+` has to know them all the same, so each is imported when it is first asked: here alone, and in `Expr` for
+its text.
 """
 
 from __future__ import annotations
@@ -54,12 +58,12 @@ class Operators:
         )
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        from zeroset.expr.trace import apply_ufunc
+        from zeroset.expr.ufuncs import apply_ufunc
 
         return apply_ufunc(ufunc, method, inputs, options)
 
     def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
-        from zeroset.expr.trace import apply_function
+        from zeroset.expr.ufuncs import apply_function
 
         return apply_function(function, args, options)
 
@@ -144,7 +148,6 @@ class Operators:
 
 def _apply(op: str, *args: Operand) -> Expr:
     """The rewritten node of an operator; NotImplemented where an argument is of a foreign type."""
-    # Imported late: the rewriter works on the nodes that inherit from this class.
     from zeroset.expr.build import build
     from zeroset.expr.convert import as_numbers
 

@@ -19,7 +19,10 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-__all__ = ["FUNCTIONS", "OPS", "Kind", "Operator", "rational_root"]
+__all__ = ["FUNCTIONS", "OPS", "Data", "Kind", "Operator", "rational_root"]
+
+Data = tuple[Fraction | int | str, ...]
+"""What else an operator needs besides its arguments: a constant's value, a name, an exponent."""
 
 Kind = Literal["leaf", "arithmetic", "function", "condition", "sum"]
 

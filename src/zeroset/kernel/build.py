@@ -31,7 +31,7 @@ class Kernel:
         """A hash of all of the kernel; equal kernels have equal digests in every process."""
         from zeroset.kernel.digest import digest_of
 
-        return digest_of(self)
+        return digest_of(self.name, self.uniforms, self.buffers, self.body)
 
 
 class KernelBuilder:

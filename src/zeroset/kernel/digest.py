@@ -7,26 +7,26 @@ from typing import TYPE_CHECKING
 from zeroset.hashes import hexdigest
 
 if TYPE_CHECKING:
-    from zeroset.kernel.build import Kernel
+    from zeroset.kernel.types import Buffer, Uniform
     from zeroset.kernel.value import Block
 
 
-def digest_of(kernel: Kernel) -> str:
+def digest_of(name: str, uniforms: tuple[Uniform, ...], buffers: tuple[Buffer, ...], body: Block) -> str:
     """The same for equal kernels in every process, and for no others; values count by where they first appear.
 
     Example:
         >>> from zeroset.kernel import KernelBuilder
         >>> with KernelBuilder("a") as a, KernelBuilder("b") as b:
         ...     pass
-        >>> digest_of(a.kernel) == digest_of(b.kernel)
+        >>> a.kernel.digest == b.kernel.digest
         False
     """
-    parts: list[object] = [kernel.name, len(kernel.uniforms), len(kernel.buffers)]
-    for uniform in kernel.uniforms:
+    parts: list[object] = [name, len(uniforms), len(buffers)]
+    for uniform in uniforms:
         parts += (uniform.name, uniform.type.name)
-    for buffer in kernel.buffers:
+    for buffer in buffers:
         parts += (buffer.name, buffer.type.name, buffer.writable, buffer.constant)
-    _block(kernel.body, parts, _Numbers())
+    _block(body, parts, _Numbers())
     # repr puts each text between quotes: with the counts before all that may be longer or shorter, no two kernels
     # give one text.
     return hexdigest(repr(parts))

@@ -13,7 +13,8 @@ from zeroset.kernel.types import F32, F64, Type
 from zeroset.rendering.values import scalar_uniforms
 from zeroset.runtime import Device
 from zeroset.scene.camera import Rays
-from zeroset.scene.coloring import QUANTITIES, Coloring, formula_of, value_range
+from zeroset.scene.colored import formula_of, value_range
+from zeroset.scene.coloring import QUANTITIES, Coloring
 from zeroset.scene.colormap import NEUTRAL, table
 from zeroset.scene.exprfield import ExprField
 from zeroset.scene.parameters import TIME

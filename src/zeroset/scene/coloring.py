@@ -1,25 +1,17 @@
 """Colour by what the surface is: which quantity, through which colour map, over which range.
 
-``QUANTITIES`` lists what can be named; anything else is a formula in x, y, z, w and the surface's parameters. How a
-quantity is computed is told in ``rendering.quantity``.
+``QUANTITIES`` lists what can be named; anything else is a formula in x, y, z, w and the surface's parameters, which
+``colored`` reads. How a quantity is computed is told in ``rendering.quantity``.
 """
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from zeroset.errors import FormulaError, FormulaLimitError, ParameterError, UnknownNameError, ZerosetError, did_you_mean
-from zeroset.expr import parse
+from zeroset.errors import ParameterError
 from zeroset.scene.bounds import number
 from zeroset.scene.colormap import find_map
-from zeroset.scene.exprfield import MOST_WORK, ExprField
-from zeroset.scene.parameters import TIME
-
-if TYPE_CHECKING:
-    from zeroset.scene.surface import Surface
 
 Range = tuple[float, float]
 
@@ -80,7 +72,7 @@ class Coloring:
 
     def __post_init__(self) -> None:
         if not isinstance(self.by, str) or not self.by.strip():
-            raise ParameterError(f"what to colour by must be text, not {self.by!r}", hint=_known())
+            raise ParameterError(f"what to colour by must be text, not {self.by!r}", hint=offered())
         if self.map is not None:
             find_map(self.map)
         if self.range is not None:
@@ -113,73 +105,11 @@ def as_coloring(value: Any) -> Coloring | None:
         return value
     if isinstance(value, str):
         return Coloring(value)
-    raise ParameterError(f"a coloring must be a Coloring or text, not {value!r}", hint=_known())
+    raise ParameterError(f"a coloring must be a Coloring or text, not {value!r}", hint=offered())
 
 
-def formula_of(coloring: Coloring, surface: Surface) -> ExprField | None:
-    """The formula that a surface is to be coloured by; None where it is a quantity with a name.
-
-    Raises:
-        ParameterError: it is neither a quantity's name nor a formula.
-        FormulaError: it is a formula with a mistake; the message shows where.
-        FormulaLimitError: it is too long to be compiled.
-    """
-    if coloring.by == "isovalue":
-        # What a ray meets where f is one of them is f.
-        if not surface.isovalues:
-            hint = "surface.with_isovalues((0.0, 0.5)), or --isovalues 0,0.5"
-            raise ParameterError("the surface has no isovalues that it could be coloured by", hint=hint)
-        return surface.field
-    if coloring.by in QUANTITIES:
-        return None
-    try:
-        made = _read(coloring.by, frozenset(surface.params) - {TIME}, frozenset(surface.arrays))
-    except FormulaError as error:
-        raise _mistaken(error, coloring.by, surface) from None
-    if made.work > MOST_WORK:
-        raise FormulaLimitError(f"the formula to colour by has more than {MOST_WORK:,} operations")
-    return made
-
-
-def value_range(coloring: Coloring, surface: Surface) -> Range | None:
-    """The range that a quantity has by itself; None where it is found from the picture."""
-    if coloring.by != "isovalue":
-        return None
-    low, high = surface.isovalues[0], surface.isovalues[-1]
-    return (low, high) if low < high else (low - 1.0, high + 1.0)
-
-
-@lru_cache(maxsize=32)
-def _read(by: str, params: frozenset[str], arrays: frozenset[str]) -> ExprField:
-    """A formula; kept, since every picture of a window asks for it."""
-    return ExprField(parse(by, params=params, arrays=arrays))
-
-
-def suited(coloring: Coloring | None, surface: Surface) -> Coloring | None:
-    """The coloring, if a surface can be coloured so; None for a formula with parameters that it has not."""
-    if coloring is not None:
-        try:
-            formula_of(coloring, surface)
-        except ZerosetError:
-            return None
-    return coloring
-
-
-def _mistaken(error: FormulaError, by: str, surface: Surface) -> ZerosetError:
-    """What to say of a text that is no formula: perhaps it was meant as a quantity's name."""
-    name = by.strip().lower()
-    near = did_you_mean(re.sub(r"[_ ]+", "-", name), QUANTITIES)
-    if near and (isinstance(error, UnknownNameError) or re.fullmatch(r"[a-z]+([-_ ][a-z]+)*", name)):
-        return ParameterError(f"there is nothing to colour by that is called {by!r}", hints=(*near, _known()))
-    if isinstance(error, UnknownNameError):
-        # It is the surface that has parameters; a formula to colour by brings none of its own.
-        known = ", ".join(sorted({*surface.params, *surface.arrays} - {TIME})) or "none"
-        hints = (*did_you_mean(error.name, {*surface.params, *surface.arrays}), f"the surface's parameters: {known}")
-        return UnknownNameError(error.message, name=error.name, text=by, position=error.position, hints=hints)
-    return error
-
-
-def _known() -> str:
+def offered() -> str:
+    """What there is to colour by, as a hint."""
     return f"there are {', '.join(QUANTITIES)}, and any formula in x, y, z"
 
 

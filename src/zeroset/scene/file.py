@@ -29,7 +29,8 @@ from typing import Any
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
 from zeroset.scene.blame import blamed, in_toml
 from zeroset.scene.camera import Camera
-from zeroset.scene.coloring import Coloring, formula_of
+from zeroset.scene.colored import formula_of
+from zeroset.scene.coloring import Coloring
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.file_shapes import TOP, given, material_data, read_shapes, shapes_data
 from zeroset.scene.kinds import shown, wrong_kind

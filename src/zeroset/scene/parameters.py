@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Mapping
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from zeroset.errors import ArrayShapeError, ParameterError, did_you_mean
 from zeroset.expr import Expr, postorder
-
-if TYPE_CHECKING:
-    from zeroset.scene.surface import Surface
 
 TIME = "w"
 """The fourth variable: a uniform like any parameter, 0 unless it is given."""
@@ -79,19 +76,6 @@ def check_names(field: ParametricField, params: Mapping[str, float], arrays: Map
         lengths = {len(arrays[name]) for name in group}
         if len(lengths) > 1:
             raise ArrayShapeError(f"arrays summed over together must be equally long: {', '.join(sorted(group))}")
-
-
-def spread_params(surfaces: Sequence[Surface], values: Mapping[str, Any]) -> list[Surface]:
-    """Surfaces with other values, each of the parameters that it has; raises for one that none of them has."""
-    known = {name for surface in surfaces for name in (*surface.params, *surface.arrays)}
-    for name in values:
-        if name not in known:
-            raise ParameterError(
-                f"no surface has a parameter {name!r}",
-                hints=(*did_you_mean(name, known), f"they have {', '.join(sorted(known)) or 'none'}"),
-            )
-    own = ({k: v for k, v in values.items() if k in surface.params or k in surface.arrays} for surface in surfaces)
-    return [surface.with_params(**some) if some else surface for surface, some in zip(surfaces, own, strict=True)]
 
 
 def index_groups(expr: Expr) -> list[frozenset[str]]:

@@ -62,7 +62,7 @@ class Scene:
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
         for material in self.materials:
             if material.coloring is not None:
-                from zeroset.scene.coloring import formula_of
+                from zeroset.scene.colored import formula_of
 
                 formula_of(material.coloring, colored_surface(self.surface))
         if self.environment is not None:

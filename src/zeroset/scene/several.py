@@ -13,8 +13,7 @@ from zeroset.scene.bounds import Ball, Bounds
 from zeroset.scene.camera import Camera
 from zeroset.scene.exprfield import check_work
 from zeroset.scene.light import Material
-from zeroset.scene.parameters import spread_params
-from zeroset.scene.solid import Solid
+from zeroset.scene.solid import Solid, spread_params
 from zeroset.scene.surface import Surface
 
 

@@ -7,17 +7,16 @@ and one that occurs twice is there once. Its bounds are its own: those of its su
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from zeroset.errors import ParameterError
+from zeroset.errors import ParameterError, did_you_mean
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
 from zeroset.scene.exprfield import check_work
 from zeroset.scene.light import Material
-from zeroset.scene.parameters import spread_params
 from zeroset.scene.surface import Surface
 
 MOST_LEAVES = 64
@@ -148,3 +147,16 @@ def join(op: str, left: object, right: object) -> Solid:
 def subtract(left: object, right: object) -> Solid:
     """What is inside the left and outside the right one."""
     return Solid("and", (_operand(left), Solid("not", (_operand(right),))))
+
+
+def spread_params(surfaces: Sequence[Surface], values: Mapping[str, Any]) -> list[Surface]:
+    """Surfaces with other values, each of the parameters that it has; raises for one that none of them has."""
+    known = {name for surface in surfaces for name in (*surface.params, *surface.arrays)}
+    for name in values:
+        if name not in known:
+            raise ParameterError(
+                f"no surface has a parameter {name!r}",
+                hints=(*did_you_mean(name, known), f"they have {', '.join(sorted(known)) or 'none'}"),
+            )
+    own = ({k: v for k, v in values.items() if k in surface.params or k in surface.arrays} for surface in surfaces)
+    return [surface.with_params(**some) if some else surface for surface, some in zip(surfaces, own, strict=True)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -17,7 +17,34 @@ from zeroset.view.worker import told
 
 if TYPE_CHECKING:
     from zeroset.view.log import Log
-    from zeroset.view.session import Session
+    from zeroset.view.notes import Notes
+    from zeroset.view.state import State
+
+
+class Desk(Protocol):
+    """What errands ask of what runs behind the window, which is the session.
+
+    Attributes:
+        state: what the user has chosen; an errand may replace it.
+        size: of the picture, in pixels.
+        snippet: the text that was copied last.
+        clipboard: puts text on the clipboard, and gives whether there is one.
+        log: is told what has been done.
+        notes: messages to the user.
+    """
+
+    state: State
+    size: tuple[int, int]
+    snippet: str
+    clipboard: Callable[[str], bool]
+    log: Log
+    notes: Notes
+
+    def read(self, refit: bool = False) -> None:
+        """Read the chosen formula again."""
+
+    def show(self, item: Item) -> None:
+        """Compile and show another version of a surface."""
 
 
 def outcome(work: Callable[[], str], log: Log) -> str:
@@ -46,7 +73,7 @@ def read_size(text: str, usual: tuple[int, int]) -> tuple[int, int]:
     return width, height
 
 
-def save_picture(session: Session, value: str) -> None:
+def save_picture(desk: Desk, value: str) -> None:
     """Draw the picture anew, with its overlay, and save it; the value is path, line break, size."""
     path, _, asked = value.partition("\n")
 
@@ -62,68 +89,68 @@ def save_picture(session: Session, value: str) -> None:
         data = encode(np.ascontiguousarray(paint(shot, lambda: False).pixels[..., :3]), kind)
         with replacing(place) as file:
             file.write(data)
-        session.log.say("saved", path=str(place))
+        desk.log.say("saved", path=str(place))
         return f"saved {place}, {size[0]} x {size[1]}"
 
-    state, usual = session.state, session.size
-    session.notes.say("drawing the picture ...")
-    session.notes.apart(lambda: outcome(work, session.log))
+    state, usual = desk.state, desk.size
+    desk.notes.say("drawing the picture ...")
+    desk.notes.apart(lambda: outcome(work, desk.log))
 
 
-def save_scene(session: Session, value: str) -> None:
+def save_scene(desk: Desk, value: str) -> None:
     """Write the scene file."""
-    scene = session.state.scene
+    scene = desk.state.scene
 
     def work() -> str:
         from zeroset.scene.file import save
 
         place = save(scene, Path(value).expanduser())
-        session.log.say("saved", path=str(place))
+        desk.log.say("saved", path=str(place))
         return f"saved {place}"
 
-    session.notes.apart(lambda: outcome(work, session.log))
+    desk.notes.apart(lambda: outcome(work, desk.log))
 
 
-def copy_python(session: Session, value: str) -> None:
+def copy_python(desk: Desk, value: str) -> None:
     """Put the picture as a Python program on the clipboard."""
-    _copy(session, snippet.python(session.state, session.size), "the Python program")
+    _copy(desk, snippet.python(desk.state, desk.size), "the Python program")
 
 
-def copy_command(session: Session, value: str) -> None:
+def copy_command(desk: Desk, value: str) -> None:
     """Put the picture as a command line on the clipboard."""
-    _copy(session, snippet.command(session.state, session.size), "the command line")
+    _copy(desk, snippet.command(desk.state, desk.size), "the command line")
 
 
-def _copy(session: Session, text: str, what: str) -> None:
-    session.snippet = text
-    where = "is on the clipboard" if session.clipboard(text) else "stands under the buttons"
-    session.notes.say(f"{what} {where}")
-    session.log.say("copied", text=text)
+def _copy(desk: Desk, text: str, what: str) -> None:
+    desk.snippet = text
+    where = "is on the clipboard" if desk.clipboard(text) else "stands under the buttons"
+    desk.notes.say(f"{what} {where}")
+    desk.log.say("copied", text=text)
 
 
-def gallery(session: Session, value: str) -> None:
+def gallery(desk: Desk, value: str) -> None:
     """Show a surface of the gallery in place of the chosen one, in its colours."""
     from zeroset.shelf import gallery as shelf
     from zeroset.surfaces import entry
 
-    state = replace(session.state.edited(text=entry(value).formula), flying=False)
-    session.state = state
+    state = replace(desk.state.edited(text=entry(value).formula), flying=False)
+    desk.state = state
     before = state.item
-    session.show(Item(before.key, before.text, shelf[value].with_material(None), before.material, values=before.known))
+    desk.show(Item(before.key, before.text, shelf[value].with_material(None), before.material, values=before.known))
 
 
-def fit_bounds(session: Session, value: str) -> None:
+def fit_bounds(desk: Desk, value: str) -> None:
     """Fit the bounds to the formula again."""
-    session.read(refit=True)
+    desk.read(refit=True)
 
 
-def declare(session: Session, value: str) -> None:
+def declare(desk: Desk, value: str) -> None:
     """Take a longer name for a parameter."""
-    session.state = session.state.edited(named=session.state.item.named | {value})
-    session.read()
+    desk.state = desk.state.edited(named=desk.state.item.named | {value})
+    desk.read()
 
 
-TABLE: dict[str, Callable[[Session, str], None]] = {
+TABLE: dict[str, Callable[[Desk, str], None]] = {
     "save-picture": save_picture,
     "save-scene": save_scene,
     "copy-python": copy_python,

@@ -13,7 +13,7 @@ from typing import Any
 
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Camera, fit_camera
-from zeroset.scene.coloring import suited
+from zeroset.scene.colored import suited
 from zeroset.scene.environment import BUILT_IN, Environment
 from zeroset.scene.isovalues import MOST_ISOVALUES
 from zeroset.scene.light import DEFAULT_LIGHTS, Color, Light, Material

@@ -7,7 +7,8 @@ import pytest
 
 import zeroset as zs
 from zeroset.errors import FormulaError, ParameterError, SceneFileError
-from zeroset.scene.coloring import QUANTITIES, as_coloring, suited
+from zeroset.scene.colored import suited
+from zeroset.scene.coloring import QUANTITIES, as_coloring
 from zeroset.scene.file import dumps, loads
 
 BALL = zs.surface("x^2 + y^2 + z^2 = r^2", {"r": 1.0})

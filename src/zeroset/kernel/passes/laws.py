@@ -1,6 +1,6 @@
 """The laws that ``fold`` applies: what each operation is when some operand is special.
 
-Each law takes the folder and the operands and gives the value that the operation equals, or None. All of them hold
+Each law takes the rebuilding and the operands and gives the value that the operation equals, or None. All of them hold
 for every float, NaN and signed zeros included (the payload and sign of a NaN are nobody's business).
 """
 
@@ -15,14 +15,14 @@ from zeroset.kernel.types import BOOL
 from zeroset.kernel.value import Value
 
 if TYPE_CHECKING:
-    from zeroset.kernel.passes.fold import Folder
+    from zeroset.kernel.passes.literals import Literals
 
 
 def _is_float(value: Value) -> bool:
     return value.type.kind == "f"
 
 
-def _add(f: Folder, a: Value, b: Value) -> Value | None:
+def _add(f: Literals, a: Value, b: Value) -> Value | None:
     zero = -0.0 if _is_float(a) else 0
     if f.is_number(b, zero):
         return a
@@ -35,7 +35,7 @@ def _add(f: Folder, a: Value, b: Value) -> Value | None:
     return None
 
 
-def _sub(f: Folder, a: Value, b: Value) -> Value | None:
+def _sub(f: Literals, a: Value, b: Value) -> Value | None:
     if f.is_number(b, 0.0):
         return a
     if _is_float(a) and f.is_number(a, -0.0):
@@ -45,7 +45,7 @@ def _sub(f: Folder, a: Value, b: Value) -> Value | None:
     return f.constant(0, a.type) if a is b and not _is_float(a) else None
 
 
-def _mul(f: Folder, a: Value, b: Value) -> Value | None:
+def _mul(f: Literals, a: Value, b: Value) -> Value | None:
     for one, other in ((a, b), (b, a)):
         if not f.is_constant(one):
             continue
@@ -58,7 +58,7 @@ def _mul(f: Folder, a: Value, b: Value) -> Value | None:
     return None
 
 
-def _div(f: Folder, a: Value, b: Value) -> Value | None:
+def _div(f: Literals, a: Value, b: Value) -> Value | None:
     if f.is_number(b, 1.0):
         return a
     if f.is_number(b, -1.0):
@@ -72,30 +72,30 @@ def _div(f: Folder, a: Value, b: Value) -> Value | None:
     return None
 
 
-def _neg(f: Folder, a: Value) -> Value | None:
+def _neg(f: Literals, a: Value) -> Value | None:
     return f.operand_of(a, "neg")
 
 
-def _abs(f: Folder, a: Value) -> Value | None:
+def _abs(f: Literals, a: Value) -> Value | None:
     inner = f.operand_of(a, "neg")
     if inner is not None:
         return f.emit("abs", (inner,), a.type)
     return a if f.operand_of(a, "abs") is not None else None
 
 
-def _extreme(f: Folder, a: Value, b: Value) -> Value | None:
+def _extreme(f: Literals, a: Value, b: Value) -> Value | None:
     return a if a is b else None
 
 
-def _never(f: Folder, a: Value, b: Value) -> Value | None:
+def _never(f: Literals, a: Value, b: Value) -> Value | None:
     return f.constant(False, BOOL) if a is b else None
 
 
-def _always(f: Folder, a: Value, b: Value) -> Value | None:
+def _always(f: Literals, a: Value, b: Value) -> Value | None:
     return f.constant(True, BOOL) if a is b and not _is_float(a) else None
 
 
-def _unequal(f: Folder, a: Value, b: Value) -> Value | None:
+def _unequal(f: Literals, a: Value, b: Value) -> Value | None:
     return f.constant(False, BOOL) if a is b and not _is_float(a) else None
 
 
@@ -103,7 +103,7 @@ def _all_ones(value: Value) -> int:
     return {"bool": 1, "i32": -1, "u32": 2**32 - 1}[value.type.name]
 
 
-def _and(f: Folder, a: Value, b: Value) -> Value | None:
+def _and(f: Literals, a: Value, b: Value) -> Value | None:
     for known, other in ((a, b), (b, a)):
         if f.is_number(known, 0):
             return known
@@ -112,7 +112,7 @@ def _and(f: Folder, a: Value, b: Value) -> Value | None:
     return a if a is b else None
 
 
-def _or(f: Folder, a: Value, b: Value) -> Value | None:
+def _or(f: Literals, a: Value, b: Value) -> Value | None:
     for known, other in ((a, b), (b, a)):
         if f.is_number(known, 0):
             return other
@@ -121,7 +121,7 @@ def _or(f: Folder, a: Value, b: Value) -> Value | None:
     return a if a is b else None
 
 
-def _xor(f: Folder, a: Value, b: Value) -> Value | None:
+def _xor(f: Literals, a: Value, b: Value) -> Value | None:
     for known, other in ((a, b), (b, a)):
         if f.is_number(known, 0):
             return other
@@ -134,7 +134,7 @@ _OPPOSITE = {"eq": "ne", "ne": "eq"}
 _OPPOSITE_OF_INTEGERS = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt", **_OPPOSITE}
 
 
-def _not(f: Folder, a: Value) -> Value | None:
+def _not(f: Literals, a: Value) -> Value | None:
     definition = a.definition
     if definition is None:
         return None
@@ -148,11 +148,11 @@ def _not(f: Folder, a: Value) -> Value | None:
     return None
 
 
-def _shift(f: Folder, a: Value, b: Value) -> Value | None:
+def _shift(f: Literals, a: Value, b: Value) -> Value | None:
     return a if f.is_number(b, 0) or f.is_number(a, 0) else None
 
 
-def _select(f: Folder, c: Value, a: Value, b: Value) -> Value | None:
+def _select(f: Literals, c: Value, a: Value, b: Value) -> Value | None:
     if f.is_constant(c):
         return a if f.number(c) else b
     if a is b:
@@ -164,7 +164,7 @@ def _select(f: Folder, c: Value, a: Value, b: Value) -> Value | None:
     return None
 
 
-def _select_of_bools(f: Folder, c: Value, a: Value, b: Value) -> Value | None:
+def _select_of_bools(f: Literals, c: Value, a: Value, b: Value) -> Value | None:
     if f.is_number(a, 1):
         return c if f.is_number(b, 0) else f.emit("or", (c, b), BOOL)
     if f.is_number(b, 0):

@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from zeroset.errors import ZerosetError
-from zeroset.scene.coloring import QUANTITIES, Coloring, formula_of
+from zeroset.scene.colored import formula_of
+from zeroset.scene.coloring import QUANTITIES, Coloring
 from zeroset.scene.colormap import MAPS
 from zeroset.view import theme
 from zeroset.view.panels.context import Context
