@@ -85,9 +85,16 @@ def _matched(a: F, b: F) -> F:
 def mul(a: F, b: F) -> F:
     """a * b, K09 eq. 15 with rounding."""
     for number, other in ((b, a), (a, b)):
-        if number.is_scalar or (number.is_constant and number.error <= abs(number.centre) * 2 * number.fmt.eps):
+        if number.is_scalar or _exact_but_for_rounding(number):
             return _scaled(other, number)
     return _product(a, b)
+
+
+def _exact_but_for_rounding(number: F) -> bool:
+    """Whether this is a literal within two units of rounding, and not one that has overflowed."""
+    if not number.is_constant:
+        return False
+    return bool(number.error <= abs(number.centre) * 2 * number.fmt.eps and abs(number.centre) < number.fmt.big)
 
 
 def _scaled(a: F, factor: F) -> F:

@@ -15,6 +15,7 @@ from zeroset.arith.scalar import (
     fma,
     gt,
     is_literal,
+    is_zero,
     le,
     lt,
     maximum,
@@ -45,13 +46,14 @@ def cos(a: F) -> F:
 def _wave(a: F, name: str, value: Scalar, slope: Scalar) -> F:
     """f(p + d) = f(p) cos d + f'(p) sin d, so w is between 0 and -f(p)/2, within |f'(p) d|/6.
 
-    That needs no values at the ends of the range; the fallback is [-1, 1], unless an interval goes along.
+    That needs no values at the ends of the range; the fallback is [-1, 1], unless an interval goes along or is all
+    there is: what depends on parameters alone has no terms.
     """
     fmt, p, r = a.fmt, point(a), span(a)
     error = elementary.error_bound(name, fmt)
     size = absolute(p) + r
     enclosure: Interval
-    if a.system.intersect:
+    if a.system.intersect or all(is_zero(u) for u in a.terms):
         enclosure = getattr(a.interval(), name)()
     else:
         enclosure = Interval(a.system.intervals, -1.0, 1.0, a.flags)

@@ -127,7 +127,7 @@ def _find(
     """The scene to begin with, and the named animation that it comes from."""
     import dataclasses
 
-    from zeroset.cli.source import read_bounds, read_parameter
+    from zeroset.cli.source import read_bounds, read_parameters
     from zeroset.export.film.named import find
     from zeroset.export.film.path import Moment
     from zeroset.export.film.storyboard import paths
@@ -137,7 +137,7 @@ def _find(
     named = find(source)
     if named is not None:
         limits = None if bounds is None else read_bounds(bounds)
-        shape = surface(named.scene.surface, dict(map(read_parameter, params)), limits)
+        shape = surface(named.scene.surface, read_parameters(params), limits)
         return named, dataclasses.replace(named.scene, surface=shape)
     # A formula's parameter that moves needs no other value; the gallery's and files' have one.
     given = {text.partition("=")[0].strip() for text in params}

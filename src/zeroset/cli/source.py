@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -26,7 +26,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 def find_scene(source: str, params: tuple[str, ...] = (), bounds: str | None = None) -> Scene:
     """The scene that a user means: a ``.toml`` file, a gallery name, or else a formula."""
-    values = dict(map(read_parameter, params))
+    values = read_parameters(params)
     limits = None if bounds is None else read_bounds(bounds)
     if source.endswith(".toml"):
         from zeroset.scene.file import load
@@ -96,6 +96,16 @@ def read_parameter(text: str) -> tuple[str, Any]:
             f"cannot read the parameter {text!r}", hint="write name=number, or name=1,2,3 for an array"
         ) from None
     return name.strip(), numbers if "," in value else numbers[0]
+
+
+def read_parameters(texts: Iterable[str]) -> dict[str, Any]:
+    """All of them by name; raises ``ParameterError`` where one is given twice."""
+    values: dict[str, Any] = {}
+    for name, value in map(read_parameter, texts):
+        if name in values:
+            raise ParameterError(f"the parameter {name} is given twice", hint=f"write -p {name}=... once")
+        values[name] = value
+    return values
 
 
 def read_bounds(text: str) -> Bounds:

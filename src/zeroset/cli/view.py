@@ -13,7 +13,7 @@ from zeroset.cli.source import (
     find_scene,
     read_bounds,
     read_method,
-    read_parameter,
+    read_parameters,
     read_size,
     with_isovalues,
 )
@@ -69,7 +69,7 @@ def _find(source: str, params: tuple[str, ...], bounds: str | None) -> tuple[Sce
         from zeroset.view.formula import read
 
         limits = None if bounds is None else read_bounds(bounds)
-        scene = Scene(read(source, dict(map(read_parameter, params)), bounds=limits).surface)
+        scene = Scene(read(source, read_parameters(params), bounds=limits).surface)
     scene, texts = scene_of(scene)
     if not (scene.surface.name or source.endswith(".toml")):
         # The formula as it was written.

@@ -12,8 +12,8 @@ from zeroset.expr.constants import enclose
 from zeroset.expr.continuity import continuous
 from zeroset.expr.dag import PI, Expr, constant, node, postorder, rational
 from zeroset.expr.evaluate import Env, evaluate
+from zeroset.expr.fraction import fraction
 from zeroset.expr.names import VARIABLES, variable
-from zeroset.expr.numerator import numerator
 from zeroset.expr.ops import FUNCTIONS, OPS, Operator
 from zeroset.expr.parse import parse
 from zeroset.expr.polynomial import PolynomialView, degree, polynomial
@@ -37,10 +37,10 @@ __all__ = [
     "degree",
     "enclose",
     "evaluate",
+    "fraction",
     "from_sympy",
     "is_sympy",
     "node",
-    "numerator",
     "parse",
     "polynomial",
     "postorder",

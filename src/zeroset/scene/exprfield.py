@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from zeroset.errors import FormulaLimitError
-from zeroset.expr import OPS, Expr, continuous, degree, evaluate, numerator, postorder
+from zeroset.expr import OPS, Expr, continuous, degree, evaluate, fraction, postorder
 from zeroset.scene.parameters import TIME
 
 MOST_WORK = 4000
@@ -52,10 +52,15 @@ class ExprField:
         return self.degree is not None or continuous(self.expr)
 
     @cached_property
-    def numerator(self) -> ExprField | None:
-        """What vanishes where f does and is defined where f has a pole; None where f divides by nothing."""
-        top = numerator(self.expr)
-        return None if top is None else ExprField(top)
+    def jumps(self) -> bool:
+        """Whether f may jump for another reason than that it is divided by 0."""
+        return any(OPS[part.op].jumps for part in postorder(self.expr))
+
+    @cached_property
+    def fraction(self) -> tuple[ExprField, ExprField] | None:
+        """N and D of f = N/D; N vanishes where f does and is defined at poles. None where f divides by nothing."""
+        parts = fraction(self.expr)
+        return None if parts is None else (ExprField(parts[0]), ExprField(parts[1]))
 
     @cached_property
     def work(self) -> int:

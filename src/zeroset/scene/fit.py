@@ -161,9 +161,10 @@ def _sign(thing: Surface | Solid, system: System, low: Corners, high: Corners) -
     """+1 outside, -1 inside, 0 where a box may hold some of the skin."""
     if isinstance(thing, Surface):
         f = _over(thing, system, low, high)
-        # What has no value is not <= 0.
-        certain = np.where(np.asarray(f.signs()[0]) | np.asarray(f.empty), 1, -1)
-        return np.broadcast_to(np.where(f.contains_zero(), 0, certain), (len(low),)).astype(np.int8)
+        # What has no value is not <= 0: inside is only where f is known to be defined.
+        outside = np.asarray(f.signs()[0]) | np.asarray(f.empty)
+        inside = ~np.asarray(f.contains_zero()) & ~outside & np.asarray(f.defined)
+        return np.broadcast_to(np.where(outside, 1, np.where(inside, -1, 0)), (len(low),)).astype(np.int8)
     signs = [_sign(part, system, low, high) for part in thing.of]
     if thing.op == "not":
         return np.negative(signs[0])

@@ -116,7 +116,8 @@ def plain_surface(value: Drawable, what: str) -> Surface:
         return value
     found = "isovalues" if isinstance(value, Surface) else "a solid" if isinstance(value, Solid) else "several surfaces"
     raise ParameterError(
-        f"{what} takes one surface f = 0, not {found}", hint="zeroset render and zeroset view draw all of them"
+        f"{what} takes one surface f = 0, not {found}",
+        hint="without that, zeroset render and zeroset view draw all of them",
     )
 
 

@@ -253,7 +253,8 @@ def _expression(source: Any, scalars: Mapping[str, Any], arrays: Mapping[str, An
         from zeroset.expr import trace
 
         traced = trace(source)
-        return traced.expr, traced.params
+        # An argument that the function makes no use of is no parameter; who gives it a value is told so.
+        return traced.expr, {name: value for name, value in traced.params.items() if name in traced.expr.parameters}
     raise FormulaError(
         f"cannot make a surface of {type(source).__name__}",
         hints=("give a formula as text, a SymPy expression, or a function of x, y, z",),

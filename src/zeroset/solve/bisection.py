@@ -39,6 +39,8 @@ class _Bisection(Method):
         super().__post_init__()
         if self.axis not in ("t", "k"):
             raise MethodError(f"{self.name}: axis must be 't' or 'k', not {self.axis!r}")
+        if self.delta < 0:
+            raise MethodError(f"{self.name}: delta must be 0 or more, not {self.delta!r}")
 
     def system(self, fmt: Format) -> Any:
         """The number system that encloses f."""

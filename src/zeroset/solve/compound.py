@@ -57,8 +57,14 @@ def look_at(problem: Problem, body: LoweredBody, system: Any, t: Any, over: Inte
 
 
 def _levels(problem: Problem, body: LoweredBody, leaf: Leaf, system: Any, t: Any, over: Interval) -> Look:
-    f = body.leaf(leaf).along(system, problem.ray, t)
-    spans = [_certain(read(problem, f - value, over), leaf, over) for value in body.isovalues(leaf, system)]
+    lowered = body.leaf(leaf)
+    f = lowered.along(system, problem.ray, t)
+    spans = []
+    for value in body.isovalues(leaf, system):
+        above = f - value
+        seen = read(problem, above, over)
+        pole = lowered.beside_poles(above, seen.excluded, lambda other: other.along(system, problem.ray, t), value)
+        spans.append(_certain(seen.without(pole) if lowered.has_poles else seen, leaf, over))
     left, right = spans[0].left, spans[0].right
     for span in spans[1:]:
         left, right = left.minimum(span.left), right.maximum(span.right)
@@ -85,13 +91,27 @@ def _solid(problem: Problem, body: LoweredBody, tree: Tree, system: Any, t: Any,
     match tree:
         case Leaf():
             f = body.leaf(tree).along(system, problem.ray, t)
-            return _certain(read(problem, f, over), tree, over)
+            return _certain(_inside_where_defined(read(problem, f, over), over), tree, over)
         case Complement():
             span = _solid(problem, body, tree.of, system, t, over)
             return span._replace(before=-span.before, after=-span.after)
         case Join():
             left, right = (_solid(problem, body, each, system, t, over) for each in (tree.left, tree.right))
             return _join(left, right, tree.union)
+
+
+def _inside_where_defined(seen: Look, over: Interval) -> Look:
+    """A look at a solid's leaf, which is inside only where f is known to be defined: where it has no value is outside.
+
+    An enclosure is that of the values that f has, and excludes 0 also where f has none in places.
+    """
+    defined = lift(seen.defined, BOOL)
+    known, later = (defined | (sign > 0.0) for sign in (seen.before, seen.after))
+    return seen._replace(
+        excluded=seen.excluded & known,
+        left=known.select(seen.left, over.a),
+        right=later.select(seen.right, over.b),
+    )
 
 
 def _certain(seen: Look, leaf: Leaf, over: Interval) -> _Span:

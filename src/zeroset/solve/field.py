@@ -45,8 +45,12 @@ class Field(Protocol):
         """Whether f is likely to be defined and continuous everywhere; nothing that is proven rests on it."""
 
     @property
-    def numerator(self) -> Field | None:
-        """Another function, 0 wherever f is, that is defined where f has a pole; None where f has none."""
+    def jumps(self) -> bool:
+        """Whether f may jump for another reason than that it is divided by 0."""
+
+    @property
+    def fraction(self) -> tuple[Field, Field] | None:
+        """N and D of f = N/D, both defined where f has a pole; None where f has none."""
 
     def evaluate(self, system: Any, env: Any) -> Number:
         """f on numbers of ``system`` with leaves from ``env``."""
@@ -72,22 +76,47 @@ class Lowered:
         self._parameters = {name: self._uniform_pair(name) for name in sorted(field.parameters)}
         self._offset = self._uniform_pair(OFFSET) if offset else None
         self._arrays = {name: self._array(name) for name in sorted(field.arrays)}
-        top = None if offset else field.numerator
-        self.numerator = None if top is None else Lowered(top, builder, type_, prefix=prefix)
+        parts = field.fraction
+        self._fraction = None if parts is None else [Lowered(part, builder, type_, prefix=prefix) for part in parts]
 
-    def beside_poles(self, f: Number, excluded: Value, numerator: Callable[[Lowered], Number]) -> Value:
-        """Whether f has no zero, where its enclosure alone does not say so because f is not defined everywhere.
+    @property
+    def has_poles(self) -> bool:
+        """Whether f is divided by something that may be 0."""
+        return self._fraction is not None
+
+    def beside_poles(
+        self, f: Number, excluded: Value, at: Callable[[Lowered], Number], value: Number | None = None
+    ) -> Value:
+        """Whether f is nowhere 0, or ``value``, where its enclosure does not say so as f is not defined everywhere.
+
+        A denominator that jumps over 0 makes f jump from one sign to the other at no pole: there it is not said.
 
         Args:
-            f: an enclosure.
+            f: an enclosure, less ``value``.
             excluded: whether it excludes 0.
-            numerator: gives an enclosure of what vanishes where f does, over the same points.
+            at: gives the enclosure of another function over the same points.
+            value: the isovalue.
         """
-        if self.numerator is None:
+        if self._fraction is None:
             return constant(False, BOOL)
-        top, open_ = self.numerator, ~excluded & ~lift(f.defined, BOOL)
-        (free,) = if_(open_, lambda: (~lift(numerator(top).contains_zero(), BOOL),), lambda: (False,))
-        return free
+        bottom = self._fraction[1]
+
+        def free() -> tuple[Value]:
+            under = at(bottom) if bottom.field.jumps else None
+            excludes = ~lift(self.numerator(f.system, at, value).contains_zero(), BOOL)
+            return (excludes if under is None else excludes & lift(under.defined, BOOL),)
+
+        (found,) = if_(~excluded & ~lift(f.defined, BOOL), free, lambda: (False,))
+        return found
+
+    def numerator(self, system: Any, at: Callable[[Lowered], Number], value: Number | None = None) -> Number:
+        """What is 0 where f is 0, or ``value``, and defined at f's poles: N - v D."""
+        assert self._fraction is not None
+        top, bottom = self._fraction
+        levels = [] if self._offset is None else [system.enclose(*self._offset)]
+        levels += [] if value is None else [value]
+        over = at(top)
+        return over - sum(levels[1:], start=levels[0]) * at(bottom) if levels else over
 
     def _uniform_pair(self, name: str) -> tuple[Value, Value]:
         value, error = parameter_names(self.prefix + name, self.type)

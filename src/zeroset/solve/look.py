@@ -37,6 +37,11 @@ class Look(NamedTuple):
     width: Value
     mark: Value | None = None
 
+    def without(self, pole: Value) -> Look:
+        """This look where something else has shown that there is but a pole: no root, and an unknown sign behind it."""
+        before, after = (pole.select(0.0, sign) for sign in (self.before, self.after))
+        return self._replace(excluded=self.excluded | pole, before=before, after=after)
+
 
 class Interval(NamedTuple):
     """The interval [a, b] as middle and half width; these cover a and b whatever was rounded."""

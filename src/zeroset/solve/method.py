@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
@@ -35,6 +34,10 @@ HOMES = {
 """The file of each method, in the order in which they are listed; it is imported when the method is asked for."""
 
 
+LARGEST = 1e30
+"""Size of the numbers among a method's options: they are f32 in kernels."""
+
+
 def uniform(default: float) -> Any:
     """A method option that is a uniform: changing it does not recompile."""
     return field(default=default, metadata={"uniform": True})
@@ -59,8 +62,8 @@ class Method:
     def __post_init__(self) -> None:
         for item in dataclasses.fields(self):
             value = getattr(self, item.name)
-            if item.metadata.get("uniform") and not (isinstance(value, (int, float)) and math.isfinite(value)):
-                raise MethodError(f"{self.name}: {item.name} must be a finite number, not {value!r}")
+            if item.metadata.get("uniform") and not (isinstance(value, (int, float)) and abs(value) <= LARGEST):
+                raise MethodError(f"{self.name}: {item.name} must be a finite number, up to {LARGEST:g}, not {value!r}")
             if isinstance(item.default, bool) and not isinstance(value, bool):
                 raise MethodError(f"{self.name}: {item.name} must be True or False, not {value!r}")
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from zeroset.arith import AffineSystem, IntervalSystem
-from zeroset.kernel import BOOL, F64, U32, Value, constant, if_, lift, while_
+from zeroset.kernel import BOOL, F64, U32, Value, constant, for_, if_, lift, while_
 from zeroset.solve.compound import Turn, look_at, note_parts
 from zeroset.solve.look import Interval, Look, read, stretch
 from zeroset.solve.problem import Answer, Problem
@@ -45,12 +45,10 @@ def look(problem: Problem, system: Any, a: Value, b: Value) -> Look:
         return look_at(problem, problem.body, system, t, over)
     f = problem.lowered.along(system, problem.ray, t)
     seen = read(problem, f, over)
-    if problem.lowered.numerator is None:
+    if not problem.lowered.has_poles:
         return seen
-    # At a pole there is no zero, but f may well have another sign behind it.
-    free = problem.lowered.beside_poles(f, seen.excluded, lambda top: top.along(system, problem.ray, t))
-    before, after = (free.select(0.0, sign) for sign in (seen.before, seen.after))
-    return seen._replace(excluded=seen.excluded | free, before=before, after=after)
+    pole = problem.lowered.beside_poles(f, seen.excluded, lambda other: other.along(system, problem.ray, t))
+    return seen.without(pole)
 
 
 def _differ(problem: Problem, a: Value, b: Value) -> Value:
@@ -153,6 +151,26 @@ def _beside_haze(problem: Problem, a: Value, b: Value, wanted: Value) -> Value:
     return found
 
 
+def _through_a_pole(problem: Problem, a: Value, b: Value, wanted: Value) -> Value:
+    """Whether f has a zero between a and b although it has the same sign at both, for it has a pole there as well.
+
+    Then its numerator changes its sign, as the denominator does.
+    """
+    if problem.body is not None or not problem.lowered.has_poles:
+        return constant(False, BOOL)
+    system = IntervalSystem(problem.fmt)
+
+    def one(i: Value, product: Value) -> Value:
+        place = system.exact(i.eq(0).select(a, b))
+        top = problem.lowered.numerator(system, lambda other: other.along(system, problem.ray, place))
+        above, below = (lift(sign, BOOL) for sign in top.signs())
+        number = problem.number
+        return product * above.select(number(1.0), below.select(number(-1.0), 0.0))
+
+    (turns,) = if_(wanted, lambda: for_(2, one, problem.number(1.0)), lambda: (0.0,))
+    return turns < 0.0
+
+
 def _passed(zone: _Zone, passed: Value) -> _Zone:
     """The zone, or none where it is passed over."""
     return zone._replace(length=passed.select(constant(0, U32), zone.length))
@@ -192,6 +210,7 @@ def _turn(
     closes = in_zone & ((excluded & ~skipped) | cut)
     changes = _differ(problem, zone.sign, seen.before)
     if problem.hazy:
+        changes = changes | _through_a_pole(problem, zone.start, a, closes & ~zone.whole & ~changes)
         # f jumps or has no value in the zone, and the same sign on either side: no surface, and no zone any more.
         zone, closes = _passed(zone, closes & ~zone.whole & ~changes), closes & (zone.whole | changes)
         in_zone = zone.length > 0
@@ -210,6 +229,8 @@ def _turn(
     # Right of what joins, up to b, the sign may be known as well: then the zone closes at once.
     ends = joins & (seen.right < b)
     turns = _differ(problem, sign, seen.after)
+    if problem.hazy:
+        turns = turns | _through_a_pole(problem, start, seen.right, ends & ~whole & ~turns)
     crossed = (closes & changes & zone.whole) | (ends & turns & whole)
     full = joins & (zone.length >= (HAZE if problem.hazy else ZONE) - 1)
     if problem.hazy:

@@ -63,12 +63,12 @@ class LoweredBody:
         """Whether a leaf has certainly no zero, or none of its isovalues, at these points."""
         lowered = self.leaf(leaf)
         f = lowered.evaluate(system, *point)
-        if not leaf.levels:
-            excluded = ~lift(f.contains_zero(), BOOL)
-            return excluded | lowered.beside_poles(f, excluded, lambda top: top.evaluate(system, *point))
         result = constant(True, BOOL)
-        for value in self.isovalues(leaf, system):
-            result = result & ~lift((f - value).contains_zero(), BOOL)
+        for value in self.isovalues(leaf, system) if leaf.levels else [None]:
+            above = f if value is None else f - value
+            excluded = ~lift(above.contains_zero(), BOOL)
+            pole = lowered.beside_poles(above, excluded, lambda other: other.evaluate(system, *point), value)
+            result = result & (excluded | pole)
         return result
 
     def jumps(self, system: Any, point: Point) -> Value:
@@ -84,10 +84,11 @@ class LoweredBody:
         match tree:
             case Leaf():
                 f = self.leaf(tree).evaluate(system, *point)
-                one = constant(1.0, self.type)
-                # What has no value is not <= 0.
+                # What has no value is not <= 0: outside where f is above 0 or nothing, inside only where it is defined.
                 outside = lift(f.signs()[0], BOOL) | lift(f.empty, BOOL)
-                return lift(f.contains_zero(), BOOL).select(0.0, outside.select(one, -one))
+                inside = ~lift(f.contains_zero(), BOOL) & ~outside & lift(f.defined, BOOL)
+                one = constant(1.0, self.type)
+                return outside.select(one, inside.select(-one, 0.0))
             case Complement():
                 return -self._sign(tree.of, system, point)
             case Join():

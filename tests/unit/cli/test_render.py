@@ -134,6 +134,7 @@ BAD = [
     ([BALL, "-d", "cpuu"], ["no device 'cpuu'", "did you mean cpu"]),
     ([BALL, "-p", "a=1"], ["no parameter 'a'"]),
     ([BALL, "-p", "a"], ["cannot read the parameter", "name=number"]),
+    ([BALL, "-p", "a=1", "-p", "a=2"], ["the parameter a is given twice"]),
     (["x + a", "-p", "a=inf"], ["finite"]),
     ([BALL, "--eye", "1,2"], ["cannot read the eye"]),
     ([BALL, "--eye", "0,0,0"], ["its own place"]),

@@ -134,3 +134,10 @@ def test_the_gallery_is_a_mapping_of_surfaces() -> None:
 def test_expressions_survive_pickling() -> None:
     expr = zs.surface("x^2 + sin(y)").field.expr
     assert pickle.loads(pickle.dumps(expr)) is expr
+
+
+def test_an_argument_that_a_function_makes_no_use_of_is_no_parameter() -> None:
+    ball = zs.surface(lambda x, y, z, r=1.0, spare=3.0: x**2 + y**2 + z**2 - r)
+    assert dict(ball.params) == {"r": 1.0}
+    with pytest.raises(zs.errors.ParameterError, match="no parameter 'spare'"):
+        zs.surface(lambda x, y, z, spare=3.0: x, params={"spare": 2.0})

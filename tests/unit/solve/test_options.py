@@ -42,6 +42,8 @@ def test_a_method_is_named_or_given() -> None:
         ("affine", {"axis": "z"}, "axis must be"),
         ("auto", {"offset": float("nan")}, "offset must be a finite number"),
         ("auto", {"offset": "much"}, "offset must be a finite number"),
+        ("affine", {"offset": 1e40}, "offset must be a finite number, up to 1e.30"),
+        ("interval", {"delta": -1.0}, "delta must be 0 or more"),
         ("marching-points", {"test": "gut"}, "test must be"),
         ("marching-points", {"steps": -1}, "steps"),
         ("marching-points", {"steps": 2.5}, "steps"),

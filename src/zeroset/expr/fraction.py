@@ -1,8 +1,8 @@
-"""The numerator of a formula: what has to vanish where f does, and is defined where f has a pole.
+"""A formula as one fraction N/D: N has to vanish where f does, and is defined where f has a pole.
 
-f is seen as one fraction N/D: sums are brought to a common denominator, products and quotients are multiplied out, and
-whatever is no fraction stays as it is. Where f is defined D is not 0, so f = 0 means N = 0. An enclosure of f says
-nothing over a pole; one of N says there that f has no zero: 1/x^2 + 1 is (1 + x^2)/x^2.
+Sums are brought to a common denominator, products and quotients are multiplied out, and whatever is no fraction stays
+as it is. Where f is defined D is not 0, so f = 0 means N = 0, and f = v means N = v D. An enclosure of f says nothing
+over a pole; one of N says there that f has no zero: 1/x^2 + 1 is (1 + x^2)/x^2.
 """
 
 from __future__ import annotations
@@ -10,22 +10,22 @@ from __future__ import annotations
 from zeroset.expr.build import ONE, build
 from zeroset.expr.dag import Expr, postorder
 
-__all__ = ["numerator"]
+__all__ = ["fraction"]
 
 Fraction = tuple[Expr, Expr]
 
 
-def numerator(expr: Expr) -> Expr | None:
-    """N of f = N/D, which shares so many parts with f that it is hardly longer; None where nothing is divided by.
+def fraction(expr: Expr) -> Fraction | None:
+    """N and D of f = N/D, which share so many parts with f that they are hardly longer; None where D is 1.
 
     Args:
         expr: f.
 
     Example:
         >>> from zeroset.expr import parse, text
-        >>> text(numerator(parse("1/x^2 + 1")))
-        '1 + x^2'
-        >>> numerator(parse("x^2 + y/3")) is None
+        >>> [text(part) for part in fraction(parse("1/x^2 + 1"))]
+        ['1 + x^2', 'x^2']
+        >>> fraction(parse("x^2 + y/3")) is None
         True
     """
     parts = list(postorder(expr))
@@ -35,7 +35,7 @@ def numerator(expr: Expr) -> Expr | None:
     for part in parts:
         made[part] = _fraction(part, tuple(made[arg] for arg in part.args))
     top, bottom = made[expr]
-    return None if bottom is ONE else top
+    return None if bottom is ONE else (top, bottom)
 
 
 def _fraction(part: Expr, args: tuple[Fraction, ...]) -> Fraction:

@@ -1,0 +1,57 @@
+"""Parts of a formula that depend on parameters alone are numbers: functions of them are as well known as they are."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import zeroset as zs
+from zeroset.arith import F32, F64, AffineSystem
+from zeroset.expr import FUNCTIONS, OPS
+
+ONE_ARGUMENT = sorted(name for name in FUNCTIONS if hasattr(AffineSystem(F64).constant(1.0, 1.0), name))
+EXPECTED = {"sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "cbrt"}
+
+
+@pytest.mark.parametrize("method", ["auto", "affine", "interval", "mitchell"])
+@pytest.mark.parametrize("name", sorted(EXPECTED))
+def test_a_plane_at_a_function_of_a_parameter(name: str, method: str) -> None:
+    at = 0.61
+    surface = zs.surface(f"z = {name}(a)", params={"a": at}, bounds=3.0)
+    function = np.cbrt if name == "cbrt" else getattr(math, name)
+    hits = zs.cast(surface, [0.1, 0.2, -5.0], [0.0, 0.0, 1.0], method=method)
+    assert hits.status.tolist() == [zs.HIT]
+    assert hits.t[0] == pytest.approx(5 + function(at), abs=1e-3)
+
+
+@pytest.mark.parametrize("fmt", [F32, F64], ids=["f32", "f64"])
+@pytest.mark.parametrize("symbols", [1, 3])
+@pytest.mark.parametrize("name", sorted(EXPECTED))
+def test_forms_without_terms_stay_narrow(name: str, symbols: int, fmt: object) -> None:
+    system = AffineSystem(F32 if fmt is F32 else F64, symbols=symbols)
+    range_ = getattr(system.enclose(0.61, 0.0), name)().interval()
+    assert 0 <= float(range_.hi) - float(range_.lo) < 400 * system.fmt.eps
+
+
+def test_turning_by_a_parameter_turns_the_picture() -> None:
+    formula = "(x cos(a) - z sin(a))^2/2 + y^2 + 2 (x sin(a) + z cos(a))^2 = 1"
+    turned = zs.render(zs.surface(formula, params={"a": 0.7}, bounds=2.0), 128, device="cpu")
+    c, s = math.cos(0.7), math.sin(0.7)
+    same = zs.surface(f"({c!r} x - {s!r} z)^2/2 + y^2 + 2 ({s!r} x + {c!r} z)^2 = 1", bounds=2.0)
+    plain = zs.render(same, 128, device="cpu")
+    assert turned.unresolved == 0
+    assert plain.hits > 1000
+    assert np.count_nonzero(turned.aov("status") != plain.aov("status")) <= 2
+
+
+def test_what_overflows_while_bounds_are_fitted_is_no_error() -> None:
+    """A pole at the very value of a parameter: f is defined nowhere."""
+    surface = zs.surface("T(9, 1/(b - 1.11)) + x", params={"b": 1.11})
+    assert zs.render(surface, 16, device="cpu").hits == 0
+
+
+def test_every_function_is_there() -> None:
+    assert set(OPS) >= EXPECTED
+    assert set(ONE_ARGUMENT) >= EXPECTED
