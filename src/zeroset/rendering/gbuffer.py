@@ -14,11 +14,12 @@ from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
 from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, constant, if_, lift, store
 from zeroset.rendering.buffers import CLEAR, COUNTERS, END, NORMAL, PART, SECOND, Ends, fields
+from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Lowered, Ray
 from zeroset.solve.problem import Answer
 from zeroset.solve.shape import Leaf
 from zeroset.solve.status import MISS, UNRESOLVED
-from zeroset.solve.subject import LoweredBody, Subject
+from zeroset.solve.subject import Subject
 
 FAR = 1e30
 """Distance of what cannot be told."""

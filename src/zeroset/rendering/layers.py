@@ -22,11 +22,12 @@ from zeroset.rendering.primary import (
     stride,
     t_range,
 )
+from zeroset.solve.body import LoweredBody
 from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS, UNRESOLVED
-from zeroset.solve.subject import LoweredBody, Subject
+from zeroset.solve.subject import Subject
 
 DONE = EMPTY_TILE
 """Where the search goes on along a ray that has nothing more on it: beyond every bounds."""

@@ -14,13 +14,14 @@ from zeroset.rendering.gbuffer import ask_second_look, write, write_ends
 from zeroset.rendering.layout import pixel_coordinates, tile_of
 from zeroset.rendering.view import pixel_ray
 from zeroset.scene.clip import clip
+from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Ray
 from zeroset.solve.method import Method
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.search import search
 from zeroset.solve.shape import Shape
 from zeroset.solve.status import HIT, UNRESOLVED
-from zeroset.solve.subject import LoweredBody, Subject
+from zeroset.solve.subject import Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 

@@ -18,13 +18,14 @@ from zeroset.rendering.layout import pixel_coordinates
 from zeroset.rendering.view import pixel_ray
 from zeroset.scene.clip import clip
 from zeroset.shade.reflectance import dot
+from zeroset.solve.body import LoweredBody
 from zeroset.solve.clipping import can_clip, looked_over
 from zeroset.solve.field import Ray
 from zeroset.solve.problem import Problem
 from zeroset.solve.search import search
 from zeroset.solve.shape import Shape
 from zeroset.solve.status import MISS
-from zeroset.solve.subject import LoweredBody, Subject
+from zeroset.solve.subject import Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 

@@ -18,9 +18,10 @@ from typing import Any, NamedTuple
 
 from zeroset.arith import Dual, DualSystem, IntervalSystem
 from zeroset.kernel import BOOL, U32, Value, constant, for_, if_, lift, while_
+from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Lowered
 from zeroset.solve.shape import Body
-from zeroset.solve.subject import LoweredBody, Subject
+from zeroset.solve.subject import Subject
 
 
 class Patch(NamedTuple):

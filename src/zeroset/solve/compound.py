@@ -15,10 +15,10 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from zeroset.kernel import BOOL, U32, Value, constant, lift
+from zeroset.solve.body import LoweredBody
 from zeroset.solve.look import Interval, Look, read
 from zeroset.solve.problem import Problem
 from zeroset.solve.shape import Complement, Join, Leaf, Tree
-from zeroset.solve.subject import LoweredBody
 
 
 class _Span(NamedTuple):

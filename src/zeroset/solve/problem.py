@@ -8,17 +8,15 @@ shown to hold a sign change).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import Format
 from zeroset.kernel import F32, Scalar, Type, Value, constant, lift
+from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Field, Lowered, Ray
-
-if TYPE_CHECKING:
-    from zeroset.solve.shape import Body
-    from zeroset.solve.subject import LoweredBody
+from zeroset.solve.shape import Body
 
 
 class Problem(NamedTuple):
