@@ -8,6 +8,7 @@ In reading order: `ops` (the operator table), `dag` (nodes), `rules` and its fel
 from __future__ import annotations
 
 from zeroset.expr.build import build, rewrite, sum_over
+from zeroset.expr.closed import closed
 from zeroset.expr.constants import enclose
 from zeroset.expr.continuity import continuous
 from zeroset.expr.dag import PI, Expr, constant, node, postorder, rational
@@ -32,6 +33,7 @@ __all__ = [
     "PolynomialView",
     "Traced",
     "build",
+    "closed",
     "constant",
     "continuous",
     "degree",

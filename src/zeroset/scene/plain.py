@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from zeroset.expr import Expr
+from zeroset.expr import Expr, closed
 from zeroset.expr.dag import node
 from zeroset.expr.renaming import renamed
 from zeroset.scene.exprfield import ExprField
@@ -73,14 +73,14 @@ def _tree(part: Surface | Solid, made: Mapping[Surface, Expr]) -> Expr:
 
 
 def _joined(surface: Surface, params: dict[str, float], arrays: dict[str, Any]) -> Expr:
-    """A surface's formula, with what it asks for put among what others ask for."""
+    """A surface's formula, defined everywhere, with what it asks for put among what others ask for."""
     names: dict[str, str] = {}
     pairs: tuple[tuple[dict[str, Any], Mapping[str, Any]], ...] = (params, surface.params), (arrays, surface.arrays)
     for kept, own in pairs:
         for name, value in own.items():
             names[name] = _place(name, value, kept, {*params, *arrays})
             kept[names[name]] = value
-    return renamed(surface.field.expr, {old: new for old, new in names.items() if old != new})
+    return renamed(closed(surface.field.expr), {old: new for old, new in names.items() if old != new})
 
 
 def _place(name: str, value: Any, kept: Mapping[str, Any], taken: Collection[str]) -> str:
