@@ -56,6 +56,12 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
         return surface.with_material(dataclasses.replace(own, **changes, coloring=_coloring(own.coloring, look)))
 
     shown = scene.surface.mapped(changed)
+    materials = [material, *(surface.material for surface in shown.surfaces if surface.material is not None)]
+    if (look["last_solid"] or look["ior"] is not None) and all(each.opacity >= 1 for each in materials):
+        raise ParameterError(
+            "--ior and --last-solid are about what is seen through a surface, and none is transparent",
+            hint="try --opacity 0.3",
+        )
     around = look["environment"] or scene.environment
     shadows = look["shadows"] or scene.shadows
     return dataclasses.replace(scene, surface=shown, material=material, environment=around, shadows=shadows)

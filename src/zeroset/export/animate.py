@@ -194,6 +194,9 @@ def _check_style(target: Target, rate: Fraction, quality: str, dither: str) -> N
         if value not in known:
             hints = (*did_you_mean(str(value), known), f"there are {', '.join(known)}")
             raise ParameterError(f"there is no {what} {value!r}", hints=hints)
+    for what, asked, kind in (("quality", quality != "good", "mp4"), ("dither", dither != "none", "gif")):
+        if asked and target.kind != kind:
+            raise ParameterError(f"the {what} is that of {kind.upper()} files, and {target.path.name} is none")
     if target.kind == "gif" and rate > FASTEST:
         raise ParameterError(f"a GIF shows at most {FASTEST} frames a second, not {float(rate):g}", hint="write .mp4")
 

@@ -75,6 +75,8 @@ def test_a_camera_path(zeroset: Run, tmp_path: Path) -> None:
         (["sphere", "--orbit", "90", "--frames", "0"], "at least one"),
         (["sphere", "--orbit", "90", "--frames", "2", "--duration", "2"], "either a number of frames or a duration"),
         (["sphere", "--orbit", "90", "-o", "a.avi"], "use .mp4 or .gif"),
+        (["sphere", "--orbit", "90", "-o", "a.gif", "--quality", "best"], "of MP4 files, and a.gif is none"),
+        (["sphere", "--orbit", "90", "-o", "a.mp4", "--dither", "diffused"], "of GIF files, and a.mp4 is none"),
         (["sphere", "--orbit", "90", "-o", "none/a.mp4"], "there is no folder"),
     ],
 )

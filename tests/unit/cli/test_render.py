@@ -135,6 +135,8 @@ BAD = [
     ([BALL, "-p", "a=1"], ["no parameter 'a'"]),
     ([BALL, "-p", "a"], ["cannot read the parameter", "name=number"]),
     ([BALL, "-p", "a=1", "-p", "a=2"], ["the parameter a is given twice"]),
+    ([BALL, "--ior", "1.3"], ["none is transparent", "--opacity"]),
+    ([BALL, "--last-solid"], ["none is transparent", "--opacity"]),
     (["x + a", "-p", "a=inf"], ["finite"]),
     ([BALL, "--eye", "1,2"], ["cannot read the eye"]),
     ([BALL, "--eye", "0,0,0"], ["its own place"]),
