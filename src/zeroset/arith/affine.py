@@ -200,6 +200,6 @@ class AffineSystem(FormSystem[Affine]):
     def rebuild(self, components: list[Scalar]) -> Affine:
         """The form of these components."""
         n = self.width
-        flags = Flags(components[-2], components[-1])
+        flags = Flags(components[-2], components[-1], large=True)
         bounds = Interval(self.intervals, components[n + 2], components[n + 3], flags) if self.intersect else None
         return Affine(self, components[0], tuple(components[1 : n + 1]), components[n + 1], Budget(), flags, bounds)

@@ -14,7 +14,7 @@ from zeroset.arith import affine_curved as curved
 from zeroset.arith import scalar as s
 from zeroset.arith.budget import MARGIN, STOCK, Budget, bought, funded, quanta
 from zeroset.arith.number import Number
-from zeroset.arith.scalar import Scalar, absolute, fma, is_literal, is_zero
+from zeroset.arith.scalar import Scalar, absolute, fma, is_literal, is_zero, or_
 
 if TYPE_CHECKING:
     from zeroset.arith.affine_form import F, Form
@@ -65,7 +65,9 @@ def _sum(a: F, b: F, combine: Callable[[Scalar, Scalar], Scalar], name: str) -> 
         max(a.budget.depth, b.budget.depth) + 1,
     )
     error, budget = funded(a.fmt, centre, terms, s.add(a.error, b.error), budget, price=1.0)
-    return a.make(centre, terms, error, budget, a.flags.meet(b.flags), _beside(a, b, name))
+    total = a.make(centre, terms, error, budget, a.flags.meet(b.flags), _beside(a, b, name))
+    # What is large less what is large may be anything.
+    return total.endless_where(or_(a.endless(), b.endless())) if a.flags.large and b.flags.large else total
 
 
 def _with_flags_of(kept: F, dropped: F) -> F:
@@ -87,7 +89,8 @@ def mul(a: F, b: F) -> F:
     for number, other in ((b, a), (a, b)):
         if number.is_scalar or _exact_but_for_rounding(number):
             return _scaled(other, number)
-    return _product(a, b)
+    product, large = _product(a, b), [each for each in (a, b) if each.flags.large]
+    return product.endless_where(or_(*(each.endless() for each in large))) if large else product
 
 
 def _exact_but_for_rounding(number: F) -> bool:
@@ -119,7 +122,8 @@ def _scaled(a: F, factor: F) -> F:
         return a.make(centre, terms, error, Budget(), flags, bounds)
     budget = Budget(a.budget.credit, slack, a.budget.depth + 2)
     error, budget = funded(fmt, centre, terms, error, budget, price)
-    return a.make(centre, terms, error, budget, flags, bounds)
+    share = a.make(centre, terms, error, budget, flags, bounds)
+    return share.endless_where(a.endless()) if a.flags.large else share
 
 
 def _trivially_scaled(a: F, k: float, flags: Flags, bounds: Interval | None) -> F:

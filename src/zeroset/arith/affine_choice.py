@@ -7,6 +7,8 @@ max(a, b) = L a + (1-L) b + w with L = hi/(hi - lo) and 0 <= w <= max((1-L) hi, 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from zeroset.arith import scalar as s
 from zeroset.arith.affine_arithmetic import stocked
 from zeroset.arith.affine_form import F, Form
@@ -16,7 +18,7 @@ from zeroset.arith.interval import Interval, IntervalCondition
 from zeroset.arith.interval_arithmetic import mod_and_steps
 from zeroset.arith.linearise import narrower
 from zeroset.arith.number import Number
-from zeroset.arith.scalar import Scalar, fma, ge, gt, is_literal, le, lt, select
+from zeroset.arith.scalar import Mask, Scalar, fma, ge, gt, is_literal, is_zero, le, lt, select
 
 __all__ = ["AffineCondition", "absolute", "floor", "larger", "less", "less_equal", "mod", "sign", "smaller"]
 
@@ -100,14 +102,31 @@ def mod(a: F, b: F) -> F:
 
 def less(a: F, b: F) -> AffineCondition[F]:
     """a < b, decided by the range of the difference, in which common terms cancel."""
+    if _alone(a) and _alone(b):
+        return _by_ranges(a, b, lt, ge)
     difference = a.sub(b).interval()
     return AffineCondition(lt(difference.hi, 0.0), ge(difference.lo, 0.0), difference.flags, _shown(difference))
 
 
 def less_equal(a: F, b: F) -> AffineCondition[F]:
     """a <= b, likewise."""
+    if _alone(a) and _alone(b):
+        return _by_ranges(a, b, le, gt)
     difference = a.sub(b).interval()
     return AffineCondition(le(difference.hi, 0.0), gt(difference.lo, 0.0), difference.flags, _shown(difference))
+
+
+def _alone(a: Form) -> bool:
+    """Whether there are no terms that could cancel: a number, which a difference would round."""
+    return all(is_zero(u) for u in a.terms)
+
+
+def _by_ranges(
+    a: F, b: F, holds: Callable[[Scalar, Scalar], Mask], fails: Callable[[Scalar, Scalar], Mask]
+) -> AffineCondition[F]:
+    x, y = a.interval(), b.interval()
+    like = _shown(y) if is_literal(x.lo, x.hi) else _shown(x)
+    return AffineCondition(holds(x.hi, y.lo), fails(x.lo, y.hi), x.flags.meet(y.flags), like)
 
 
 def _shown(x: Interval) -> Scalar:

@@ -24,6 +24,7 @@ from zeroset.arith.scalar import (
     gt,
     is_literal,
     is_zero,
+    le,
     lt,
     maximum,
     minimum,
@@ -123,6 +124,15 @@ class Form(Number):
             total = add(absolute(term), total)
         return total
 
+    def endless(self) -> Mask:
+        """Whether values may pass ``big``, or come so near that rounding may tell."""
+        return not_(lt(add(absolute(self.centre), self.radius()), 0.5 * self.fmt.big))
+
+    def endless_where(self, mask: Mask) -> Self:
+        """This form, which claims nothing where the mask says so."""
+        error = select(mask, add(absolute(self.centre), self.fmt.big), self.error, like=self.centre)
+        return self.make(self.centre, self.terms, error, self.budget, bounds=self.bounds)
+
     def reach(self) -> Scalar:
         """How far the number may be from its centre: the radius with the roundings of its arithmetic repaid."""
         return repaid(self.fmt, self.radius(), self.budget.depth + len(self.terms))
@@ -155,6 +165,10 @@ class Form(Number):
             below, above = (repaid(self.fmt, reach, depth) for reach in (below, above))
         # clamp keeps its second operand for a NaN, which makes a form that overflowed the whole line.
         low, high = sub(self.centre, below), add(self.centre, above)
+        if all(is_zero(u) for u in self.terms) and not is_literal(self.error):
+            # A parameter that is stored exactly may be the end of a domain, or where something jumps.
+            inexact = not_(le(self.error, 0.0))
+            low, high = select(inexact, low, self.centre), select(inexact, high, self.centre)
         big = self.fmt.big
         return clamp(self.fmt, low), maximum(minimum(high, big), -big)
 

@@ -27,6 +27,7 @@ from zeroset.arith.scalar import (
     lt,
     maximum,
     minimum,
+    not_,
     or_,
     select,
 )  # fmt: skip
@@ -59,11 +60,15 @@ def divide(a: F, b: F) -> F:
     if known and (divisor.lo > b.fmt.tiny or divisor.hi < -b.fmt.tiny):
         return a.mul(a.system.constant(*literal_reciprocal(divisor)))
     inverse, regular = _reciprocal(b)
-    quotient = a.mul(inverse)
+    # Where the inverse is endless there may be a pole, which ``regular`` sees: its product need not look for that.
+    plain = inverse.make(inverse.centre, inverse.terms, inverse.error, inverse.budget, b.flags, inverse.bounds)
+    quotient = a.mul(plain)
     line = a.system.from_interval(Interval(a.system.intervals, -a.fmt.big, a.fmt.big))
     chosen = picked(regular, quotient, line, like=b.centre)
     bounds = a.interval().div(b.interval()) if a.system.intersect else None
-    return chosen.make(chosen.centre, chosen.terms, chosen.error, chosen.budget, quotient.flags, bounds)
+    return chosen.make(
+        chosen.centre, chosen.terms, chosen.error, chosen.budget, quotient.flags.meet(inverse.flags), bounds
+    )
 
 
 def sqrt(a: F) -> F:
@@ -74,7 +79,8 @@ def sqrt(a: F) -> F:
     slope = s.div(1.0, value + value)
     total = enclosure.lo + value
     low = -s.div(value + value, total * total)
-    return linearise(a, enclosure, Expansion(value, slope, low, 0.0, 1.0, 3.0, valid=gt(p, a.fmt.tiny), unit=slope))
+    valid = and_(gt(p, a.fmt.tiny), not_(x.endless()[1]))
+    return linearise(a, enclosure, Expansion(value, slope, low, 0.0, 1.0, 3.0, valid=valid, unit=slope))
 
 
 def cbrt(a: F) -> F:
@@ -92,6 +98,7 @@ def cbrt(a: F) -> F:
     base = fma(y, y, fma(y, q, q * q))
     size = s.div(q + q + y, base) * s.div(3.0 * (q * q), base)
     above, below = gt(x.lo, fmt.tiny), lt(x.hi, -fmt.tiny)
+    bounded = not_(or_(*x.endless()))
     expansion = Expansion(
         value,
         slope,
@@ -100,7 +107,7 @@ def cbrt(a: F) -> F:
         value_error=error.relative,
         slope_error=2 * error.relative + 4,
         absolute=error.absolute,
-        valid=or_(above, below),
+        valid=and_(or_(above, below), bounded),
         unit=slope,
     )
     return linearise(a, enclosure, expansion)
@@ -118,11 +125,12 @@ def exp(a: F) -> F:
         # e**p e**-r to e**p e**r; growth stops at big, and then so must the bound.
         k = 2 * error.relative + 3.0
         high = select(lt(growth, 0.5 * fmt.big), minimum(value * growth, fmt.big), fmt.big)
+        # Where growth has stopped their quotient is no bound; a value that has is less than the true one.
         enclosure = Interval(
             a.system.intervals,
-            lower_nonnegative(fmt, value / growth, k, fmt.tiny),
+            lower_nonnegative(fmt, select(lt(growth, 0.5 * fmt.big), value / growth, 0.0), k, fmt.tiny),
             upper_nonnegative(fmt, high, k, fmt.tiny),
-            a.flags,
+            a.flags.growing(),
             nonnegative=True,
         )
     # Where exp stops at big or loses relative accuracy near tiny the slope is not the value.
@@ -140,7 +148,7 @@ def log(a: F) -> F:
     error = elementary.error_bound("log", fmt)
     slope, nearest = s.div(1.0, p), s.mul(x.lo, s.div(1.0, p))
     low = -fma(nearest * nearest, 1.0 / 3.0, 1.0 / 6.0)
-    valid, unit = gt(x.lo, fmt.tiny), s.div(1.0, x.lo)
+    valid, unit = and_(gt(x.lo, fmt.tiny), not_(x.endless()[1])), s.div(1.0, x.lo)
     expansion = Expansion(elementary.log(fmt, p), slope, low, 0.0, error.relative, 2.0, valid=valid, unit=unit)
     return linearise(a, enclosure, expansion)
 
@@ -213,5 +221,6 @@ def _power_expansion(a: Form, x: Interval, exponent: tuple[int, int]) -> Expansi
     low, high = (bend, 0.0) if ratio < 1 else (0.0, bend)
     error = elementary.power_error(exponent)
     grown = fmt.up(1.0 + error * fmt.eps)
-    low, high, valid, unit = s.mul(low, grown), s.mul(high, grown), gt(x.lo, fmt.tiny), s.div(1.0, edge)
+    valid = and_(gt(x.lo, fmt.tiny), not_(x.endless()[1]))
+    low, high, unit = s.mul(low, grown), s.mul(high, grown), s.div(1.0, edge)
     return Expansion(value, slope, low, high, error, error + 4, valid=valid, unit=unit)

@@ -140,10 +140,11 @@ class IntervalSystem(System[Interval]):
         return Interval(self, lo, hi)
 
     def enclose(self, value: Scalar, error: Scalar) -> Interval:
-        """value +- error, rounded outward."""
+        """value +- error, rounded outward; just the value where the error is 0, for it may be the end of a domain."""
         if is_zero(error):
             return Interval(self, value, value)
-        return Interval(self, lower(self._fmt, value - error), upper(self._fmt, value + error))
+        inexact, low, high = gt(error, 0.0), lower(self._fmt, value - error), upper(self._fmt, value + error)
+        return Interval(self, select(inexact, low, value), select(inexact, high, value))
 
     def general(self, number: Interval) -> Interval:
         """The interval without what is known while tracing."""
@@ -156,4 +157,4 @@ class IntervalSystem(System[Interval]):
     def rebuild(self, components: list[Scalar]) -> Interval:
         """The interval of these four."""
         lo, hi, defined, empty = components
-        return Interval(self, lo, hi, Flags(defined, empty))
+        return Interval(self, lo, hi, Flags(defined, empty, large=True))

@@ -25,6 +25,8 @@ __all__ = [
     "smaller", "sqr", "sub",
 ]  # fmt: skip
 
+_HIGH = 16
+"""Whole powers from which on coordinates that are not large have powers that are."""
 _NARROW = 1e-4
 """Relative width up to which a constant interval is treated as its middle with an error."""
 
@@ -37,14 +39,23 @@ def add(a: B, b: B) -> B:
     hi = upper(fmt, a.hi + b.hi)
     if a.nonnegative and b.nonnegative:
         return a.make(lower_nonnegative(fmt, a.lo + b.lo), hi, flags, nonnegative=True)
-    return a.make(lower(fmt, a.lo + b.lo), hi, flags)
+    return _endless_sum(a.make(lower(fmt, a.lo + b.lo), hi, flags), a, b)
 
 
 def sub(a: B, b: B) -> B:
     """a - b."""
     if a.is_point(0.0) or b.is_point(0.0):
         return neg(b) if a.is_point(0.0) else a
-    return a.make(lower(a.fmt, a.lo - b.hi), upper(a.fmt, a.hi - b.lo), a.flags.meet(b.flags))
+    difference = a.make(lower(a.fmt, a.lo - b.hi), upper(a.fmt, a.hi - b.lo), a.flags.meet(b.flags))
+    return _endless_sum(difference, a, neg(b))
+
+
+def _endless_sum(total: B, a: Bounds, b: Bounds) -> B:
+    """A sum of what is large: it has no end where one of the two has none, whatever the other one is."""
+    if not (a.flags.large and b.flags.large):
+        return total
+    (below, above), (under, over) = a.endless(), b.endless()
+    return total.endless_as(or_(below, under), or_(above, over))
 
 
 def neg(a: B) -> B:
@@ -60,6 +71,19 @@ def mul(a: B, b: B) -> B:
 
 
 def _product(a: B, b: B) -> B:
+    product = _plain_product(a, b)
+    down: Mask = False
+    up: Mask = False
+    for large, other in ((a, b), (b, a)):
+        if large.flags.large:
+            (below, above), rises = large.endless(), gt(other.hi, 0.0)
+            falls = False if other.nonnegative else lt(other.lo, 0.0)
+            up = or_(up, and_(above, rises), and_(below, falls))
+            down = or_(down, and_(above, falls), and_(below, rises))
+    return product if up is False and down is False else product.endless_as(down, up)
+
+
+def _plain_product(a: B, b: B) -> B:
     if a.nonnegative and not b.nonnegative:
         a, b = b, a
     lows, highs = [a.lo * b.lo], [a.hi * b.hi]
@@ -100,7 +124,17 @@ def _times_constant(a: B, constant: B) -> B:
     k = ROUNDED if width == 0 else ROUNDED + 0.01 + 1.01 * width / abs(middle) / fmt.eps
     products = a.lo * middle, a.hi * middle
     low, high = products if lo >= 0 else products[::-1]
-    return _clamped(a, [low], [high], k, flags, nonnegative)
+    return _endless_share(_clamped(a, [low], [high], k, flags, nonnegative), a, middle)
+
+
+def _endless_share(product: B, a: Bounds, factor: float) -> B:
+    """A multiple of what may be large: a part of what has no end has none."""
+    if not a.flags.large or factor == 0:
+        return product
+    below, above = a.endless()
+    if factor < 0:
+        below, above = above, below
+    return product.endless_as(False if product.nonnegative else below, above)
 
 
 def _is_short_power_of_two(value: float) -> bool:
@@ -115,7 +149,7 @@ def _scaled_exactly(a: B, factor: float, flags: Flags, nonnegative: bool) -> B:
     if 0 < abs(factor) < 1:
         lo, hi = lo - a.fmt.tiny, hi + a.fmt.tiny
         lo = maximum(lo, 0.0) if nonnegative else lo
-    return a.make(lo, hi, flags, nonnegative)
+    return _endless_share(a.make(lo, hi, flags, nonnegative), a, factor)
 
 
 def divide(a: B, b: B) -> B:
@@ -126,11 +160,12 @@ def divide(a: B, b: B) -> B:
     inverse, pole = _reciprocal(b)
     if a.is_point(1.0):
         return inverse
-    quotient = mul(a, inverse)
+    # Where the inverse has no end there may be a pole, which is seen to below: its product need not look for that.
+    quotient = mul(a, inverse.make(inverse.lo, inverse.hi, b.flags, inverse.nonnegative))
     # A numerator that reaches 0 leaves bounds of order tiny; any other, times big, is far beyond that.
     lo = select(and_(pole, lt(quotient.lo, -2 * fmt.tiny)), -fmt.big, quotient.lo)
     hi = select(and_(pole, gt(quotient.hi, 2 * fmt.tiny)), fmt.big, quotient.hi)
-    return a.make(lo, hi, quotient.flags, quotient.nonnegative)
+    return a.make(lo, hi, inverse.flags.meet(quotient.flags), quotient.nonnegative)
 
 
 def literal_reciprocal(constant: Bounds) -> tuple[float, float]:
@@ -146,7 +181,7 @@ def _reciprocal(b: B) -> tuple[B, Mask]:
     low, high = s.div(1.0, b.hi), s.div(1.0, b.lo)
     reaches_up = gt(b.hi, fmt.tiny)
     defined = or_(above, below)
-    flags = b.flags.within(defined)
+    flags = b.flags.within(defined).growing()
     if b.nonnegative:
         lo = select(reaches_up, lower_nonnegative(fmt, low), 0.0)
         hi = select(above, upper_nonnegative(fmt, high), fmt.big)
@@ -183,7 +218,8 @@ def powi(a: B, n: int) -> B:
     # x**n takes fewer than n roundings of weight one, and k of them cost a bit more than k*eps.
     k = ROUNDED if n == 2 else 1.01 * n + ROUNDED
     nonnegative = n % 2 == 0 or a.nonnegative
-    return _clamped(a, [_power(low, n)], [_power(high, n)], k, a.flags, nonnegative)
+    flags = a.flags.growing() if n >= _HIGH else a.flags
+    return _clamped(a, [_power(low, n)], [_power(high, n)], k, flags, nonnegative)
 
 
 def _power(x: Scalar, n: int) -> Scalar:

@@ -11,7 +11,7 @@ from typing import Any, Self, TypeVar
 from zeroset.arith.flags import TOTAL, Flags
 from zeroset.arith.format import Format
 from zeroset.arith.number import Number, System
-from zeroset.arith.scalar import Mask, Scalar, gt, is_literal, lt, maximum, minimum, not_, or_
+from zeroset.arith.scalar import Mask, Scalar, ge, gt, is_literal, le, lt, maximum, minimum, not_, or_, select
 
 __all__ = ["B", "Bounds"]
 
@@ -60,6 +60,17 @@ class Bounds(Number):
     def make(self, lo: Scalar, hi: Scalar, flags: Flags | None = None, nonnegative: bool = False) -> Self:
         """Bounds of the same system, by default with the same flags."""
         return type(self)(self._system, lo, hi, self.flags if flags is None else flags, nonnegative)
+
+    def endless(self) -> tuple[Mask, Mask]:
+        """Whether the lower bound, and whether the upper one, stands at ``big``, or so near that rounding may tell."""
+        half = 0.5 * self.fmt.big
+        return False if self.nonnegative else le(self.lo, -half), ge(self.hi, half)
+
+    def endless_as(self, below: Mask, above: Mask) -> Self:
+        """These bounds, without a lower one or an upper one where the masks say so."""
+        big, like = self.fmt.big, self.hi if is_literal(self.lo) else self.lo
+        lo = self.lo if below is False else select(below, -big, self.lo, like)
+        return self.make(lo, select(above, big, self.hi, like), nonnegative=self.nonnegative)
 
     def is_point(self, value: float) -> bool:
         """Whether this is literally the number ``value``, everywhere defined."""

@@ -50,12 +50,13 @@ def sqrt(x: B) -> B:
     fmt = x.fmt
     lo, hi = (x.lo, x.hi) if x.nonnegative else (maximum(x.lo, 0.0), maximum(x.hi, 0.0))
     flags = x.flags if x.nonnegative else x.flags.within(ge(x.lo, 0.0), lt(x.hi, 0.0))
-    return x.make(lower_nonnegative(fmt, s.sqrt(lo)), upper_nonnegative(fmt, s.sqrt(hi)), flags, nonnegative=True)
+    root = x.make(lower_nonnegative(fmt, s.sqrt(lo)), upper_nonnegative(fmt, s.sqrt(hi)), flags, nonnegative=True)
+    return root.endless_as(False, x.endless()[1])
 
 
 def exp(x: B) -> B:
     """e**x; reaches ``big`` where it would pass it."""
-    return ends(x, "exp", x.lo, x.hi, nonnegative=True)
+    return ends(x, "exp", x.lo, x.hi, x.flags.growing(), nonnegative=True)
 
 
 def log(x: B) -> B:
@@ -63,7 +64,8 @@ def log(x: B) -> B:
     fmt = x.fmt
     plain = ends(x, "log", x.lo, x.hi)
     lo = select(gt(x.lo, fmt.tiny), plain.lo, -fmt.big)
-    return x.make(lo, plain.hi, x.flags.within(gt(x.lo, 0.0), le(x.hi, 0.0)))
+    logarithm = x.make(lo, plain.hi, x.flags.within(gt(x.lo, 0.0), le(x.hi, 0.0)).growing())
+    return logarithm.endless_as(False, x.endless()[1])
 
 
 def _inside_one(x: Bounds) -> Flags:
@@ -87,13 +89,13 @@ def atan(x: B) -> B:
 
 def sinh(x: B) -> B:
     """The hyperbolic sine."""
-    return ends(x, "sinh", x.lo, x.hi, nonnegative=x.nonnegative)
+    return ends(x, "sinh", x.lo, x.hi, x.flags.growing(), nonnegative=x.nonnegative)
 
 
 def cosh(x: B) -> B:
     """The hyperbolic cosine: least where |x| is."""
     size = x.abs()
-    plain = ends(size, "cosh", size.lo, size.hi, nonnegative=True)
+    plain = ends(size, "cosh", size.lo, size.hi, size.flags.growing(), nonnegative=True)
     return plain.make(maximum(plain.lo, 1.0), plain.hi, nonnegative=True)
 
 
@@ -104,7 +106,7 @@ def tanh(x: B) -> B:
 
 def cbrt(x: B) -> B:
     """The cube root."""
-    return ends(x, "cbrt", x.lo, x.hi, nonnegative=x.nonnegative)
+    return ends(x, "cbrt", x.lo, x.hi, nonnegative=x.nonnegative).endless_as(*x.endless())
 
 
 def power(x: B, y: B) -> B:
@@ -114,7 +116,7 @@ def power(x: B, y: B) -> B:
     reached = le(x.lo, 0.0)
     defined = or_(gt(x.lo, 0.0), and_(ge(x.lo, 0.0), gt(y.lo, 0.0)))
     empty = or_(lt(x.hi, 0.0), and_(le(x.hi, 0.0), le(y.hi, 0.0)))
-    flags = x.flags.meet(y.flags).within(defined, empty)
+    flags = x.flags.meet(y.flags).within(defined, empty).growing()
     return plain.make(select(reached, 0.0, plain.lo, like=plain.hi), plain.hi, flags, nonnegative=True)
 
 

@@ -79,5 +79,5 @@ def tan(x: B) -> B:
     low, high = elementary.tan(fmt, x.lo), elementary.tan(fmt, x.hi)
     k, slope = bound.relative + 1.1, bound.slope * size
     low, high = lower(fmt, low, k, slope * fma(low, low, 1.0)), upper(fmt, high, k, slope * fma(high, high, 1.0))
-    flags = x.flags.within(not_(pole))
+    flags = x.flags.within(not_(pole)).growing()
     return x.make(select(pole, -fmt.big, low, like=x.lo), select(pole, fmt.big, high, like=x.lo), flags)

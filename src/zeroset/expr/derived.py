@@ -105,6 +105,13 @@ def _new_chebyshev(n: int, x: Expr, known: dict[tuple[int, Expr], Expr]) -> Expr
     return 2 * _chebyshev(n // 2, x, known) * _chebyshev(n // 2 + 1, x, known) - x
 
 
+def _asinh(x: Expr) -> Expr:
+    """log(x + sqrt(x^2 + 1)) of what x is above 0, less the same of what it is below: there the sum would cancel."""
+    above, below = (build("max", (side, constant(0))) for side in (x, -x))
+    one, other = (_call("log", side + _call("sqrt", side**2 + 1)) for side in (above, below))
+    return one - other
+
+
 DERIVED: dict[str, Derived] = {
     "sec": Derived(1, lambda x: 1 / _call("cos", x)),
     "csc": Derived(1, lambda x: 1 / _call("sin", x)),
@@ -113,7 +120,7 @@ DERIVED: dict[str, Derived] = {
     "log2": Derived(1, lambda x: _call("log", x) * (1 / _call("log", constant(2)))),
     "log10": Derived(1, lambda x: _call("log", x) * (1 / _call("log", constant(10)))),
     "exp2": Derived(1, lambda x: constant(2) ** x),
-    "asinh": Derived(1, lambda x: _call("log", x + _call("sqrt", x**2 + 1))),
+    "asinh": Derived(1, _asinh),
     "acosh": Derived(1, lambda x: _call("log", x + _call("sqrt", x**2 - 1))),
     "atanh": Derived(1, _atanh),
     "T": Derived(2, chebyshev),

@@ -74,6 +74,11 @@ class Surface:
         if self.material is not None and not isinstance(self.material, Material):
             raise ParameterError(f"a surface's material must be a Material, not {self.material!r}")
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Mappings that nobody can write to cannot be pickled.
+        values = {item.name: getattr(self, item.name) for item in dataclasses.fields(self)}
+        return _made_of, ({**values, "params": dict(self.params), "arrays": dict(self.arrays)},)
+
     @property
     def surfaces(self) -> tuple[Surface, ...]:
         """Itself: what solids and scenes of several surfaces have many of."""
@@ -238,6 +243,10 @@ def surface(
     arrays = {k: v for k, v in values.items() if _is_array(v)}
     expr, defaults = _expression(source, scalars, arrays)
     return Surface(ExprField(expr), {**defaults, **scalars}, arrays, limits, camera, name)
+
+
+def _made_of(values: Mapping[str, Any]) -> Surface:
+    return Surface(**values)
 
 
 def _expression(source: Any, scalars: Mapping[str, Any], arrays: Mapping[str, Any]) -> tuple[Expr, dict[str, Any]]:

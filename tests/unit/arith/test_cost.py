@@ -47,7 +47,7 @@ def affine_cost(call, arity, symbols=1):
         (lambda a: a.contract(), 1, 30),
         (lambda a: a.sin(), 1, 80),
         (lambda a: a.exp(), 1, 80),
-        (lambda a: a.sqrt(), 1, 70),
+        (lambda a: a.sqrt(), 1, 75),
         (lambda a: 1.0 / a, 1, 80),
         (lambda a: abs(a), 1, 40),
         (lambda a, b: a.max(b), 2, 42),

@@ -3,6 +3,7 @@ from __future__ import annotations
 import copy
 import math
 import pickle
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -141,3 +142,16 @@ def test_an_argument_that_a_function_makes_no_use_of_is_no_parameter() -> None:
     assert dict(ball.params) == {"r": 1.0}
     with pytest.raises(zs.errors.ParameterError, match="no parameter 'spare'"):
         zs.surface(lambda x, y, z, spare=3.0: x, params={"spare": 2.0})
+
+
+@pytest.mark.parametrize("again", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"])
+def test_surfaces_solids_and_scenes_can_be_sent_and_copied(again: Callable[[Any], Any]) -> None:
+    blobs = zs.gallery["blinn-blobby"]
+    turned = zs.surface("x cos(a) + y sin(a) - z^2", params={"a": 0.5}, bounds=2).with_material(
+        zs.Material(opacity=0.5)
+    )
+    for thing in (blobs, turned, turned & zs.surface("x^2 + y^2 - 1"), zs.Scene(turned, shadows=True)):
+        assert again(thing) == thing
+    sent = again(turned)
+    with pytest.raises(TypeError):
+        sent.params["a"] = 1.0

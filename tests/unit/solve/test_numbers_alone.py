@@ -52,6 +52,39 @@ def test_what_overflows_while_bounds_are_fitted_is_no_error() -> None:
     assert zs.render(surface, 16, device="cpu").hits == 0
 
 
+BORDERS = [
+    ("x^2 + y^2 + z^2 - floor(a)", {"a": 1.0}, 1.0),
+    ("x^2 + y^2 + z^2 - ceil(a)", {"a": 1.0}, 1.0),
+    ("x^2 + y^2 + (z - 0.6 mod(w, 1))^2 = 0.5", {"w": 0.0}, 0.5),
+    ("x^2 + y^2 + z^2 - 1 - sqrt(a)", {"a": 0.0}, 1.0),
+    ("x^2 + y^2 + z^2 - 1 - a^1.5", {"a": 0.0}, 1.0),
+    ("x^2 + y^2 + z^2 - asin(a)", {"a": 1.0}, math.pi / 2),
+    ("x^2 + y^2 + z^2 - 1 - sign(a)", {"a": 0.0}, 1.0),
+    ("x^2 + y^2 + z^2 - if(a < 1, 0.5, 1)", {"a": 1.0}, 1.0),
+    ("x^2 + y^2 + z^2 - if(a <= 1, 0.5, 1)", {"a": 1.0}, 0.5),
+    ("x^2 + y^2 + z^2 - sum(i, sqrt(r[i]))", {"r": [0.0, 1.0]}, 1.0),
+]
+
+
+@pytest.mark.parametrize("method", ["auto", "affine", "interval", "mitchell"])
+@pytest.mark.parametrize(("formula", "params", "square"), BORDERS, ids=[border[0] for border in BORDERS])
+def test_a_parameter_at_the_end_of_a_domain_is_just_there(
+    formula: str, params: dict[str, float | list[float]], square: float, method: str
+) -> None:
+    """Sliders begin at 0 and 1: a value that is stored exactly is not taken for values on both sides."""
+    surface = zs.surface(formula, params=params, bounds=1.6)
+    hits = zs.cast(surface, [-5.0, 0.1, 0.2], [1.0, 0.0, 0.0], method=method)
+    assert hits.status.tolist() == [zs.HIT]
+    assert hits.t[0] == pytest.approx(5 - math.sqrt(square - 0.05), abs=1e-3)
+
+
+@pytest.mark.parametrize("at", [-1e17, -1e8, -1e5, -3.0, -1e-3, 0.0, 2.0, 1e20])
+def test_asinh_is_as_good_below_0_as_above(at: float) -> None:
+    hits = zs.cast(zs.surface("x + asinh(a)/50", params={"a": at}, bounds=2.0), [-5, 0.1, 0.1], [1, 0, 0])
+    assert hits.status.tolist() == [zs.HIT]
+    assert hits.t[0] - 5 == pytest.approx(-math.asinh(at) / 50, abs=1e-4)
+
+
 def test_every_function_is_there() -> None:
     assert set(OPS) >= EXPECTED
     assert set(ONE_ARGUMENT) >= EXPECTED
