@@ -68,6 +68,12 @@ class Patch(NamedTuple):
         (found,) = if_(wanted, near, lambda: (False,))
         return found
 
+    def endless(self, point: Sequence[Any]) -> Value:
+        """Whether something on the way to f has passed the largest number, so that nothing is claimed of it."""
+        forms = [lowered.evaluate(self.system, *point) for _, _, lowered in self.subject.fields()]
+        masks = [lift(form.endless(), BOOL) for form in forms if form.flags.large]
+        return reduce(lambda a, b: a | b, masks, constant(False, BOOL))
+
     def excludes_well(self, point: Sequence[Any]) -> Value:
         """``excludes``, by intervals too.
 
@@ -173,7 +179,10 @@ def trace_beam(
         point, t = patch.over(a, b)
         excluded = patch.excludes(point)
         excluded = excluded | patch.hazy(point, ~excluded & ordinary.last & (h <= finest))
-        asked = ~excluded & ~aiming & (h <= finest * EARLY)
+        near = ~aiming & (h <= finest * EARLY)
+        # Of thin parts that says nothing either: the rays, in f64, are enough.
+        excluded = excluded | (near & patch.endless(point))
+        asked = ~excluded & near
         (flat,) = if_(asked, lambda: (_flat_across(patch, point, t, ordinary),), lambda: (True,))
         passed = excluded | ~flat
         end = ~passed & (h <= finest)

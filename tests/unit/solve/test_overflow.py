@@ -67,3 +67,10 @@ def test_soft_shapes_have_their_pictures(formula: str, like: str) -> None:
 def test_where_nothing_is_claimed_of_large_values_signs_are_still_known() -> None:
     for formula in ("exp(exp(x + 6)) + y^2", "1/(1 + exp(100 x)) + 1", "cosh(90 x) + exp(95 y)"):
         assert zs.render(zs.surface(formula, bounds=2.0), 64, device="cpu").hits == 0
+
+
+def test_where_floats_overflow_nothing_is_taken_for_thin() -> None:
+    surface = zs.surface("log(exp(20 (x^2 + y^2)) + exp(20 z^2))/20 = 1", bounds=2.2)
+    with_thin, without = (zs.render(surface, 128, thin=thin, device="cpu").aov("status") for thin in (True, False))
+    assert np.count_nonzero(without == zs.HIT) > 3000
+    assert np.array_equal(with_thin, without)
