@@ -18,6 +18,7 @@ from zeroset.expr.names import VARIABLES, variable
 from zeroset.expr.ops import FUNCTIONS, OPS, Operator
 from zeroset.expr.parse import parse
 from zeroset.expr.polynomial import PolynomialView, degree, polynomial
+from zeroset.expr.settled import Settled, settled
 from zeroset.expr.sympy_ import from_sympy, is_sympy
 from zeroset.expr.text import text
 from zeroset.expr.trace import Traced, trace
@@ -31,6 +32,7 @@ __all__ = [
     "Expr",
     "Operator",
     "PolynomialView",
+    "Settled",
     "Traced",
     "build",
     "closed",
@@ -48,6 +50,7 @@ __all__ = [
     "postorder",
     "rational",
     "rewrite",
+    "settled",
     "sum_over",
     "text",
     "trace",

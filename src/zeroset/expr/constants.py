@@ -48,7 +48,8 @@ def enclose(expr: Expr) -> tuple[float, float]:
         raise TypeError("only a number that depends on nothing can be enclosed")
     value = rational(expr)
     if value is not None:
-        return _below(value), -_below(-value)
+        # Without + 0.0 there would be a -0.0.
+        return _below(value), 0.0 - _below(-value)
     for digits in _DIGITS:
         ball = _ball(expr, digits)
         low, high = _below(Fraction(ball.lo)), -_below(-Fraction(ball.hi))

@@ -41,7 +41,7 @@ class Known(Protocol):
 def flags_of(op: str, args: Sequence[Known], data: Data) -> int:
     """The facts of a new node, from those of its arguments."""
     if not args:
-        return TOTAL | (_sign_of_constant(data[0]) if op == "const" else 0)
+        return TOTAL | _sign_of_leaf(op, data)
     row = OPS[op]
     flags = _sign(op, args, data)
     if row.kind == "condition":
@@ -54,11 +54,14 @@ def flags_of(op: str, args: Sequence[Known], data: Data) -> int:
     return flags
 
 
-def _sign_of_constant(value: object) -> int:
-    """pi is the only constant that is no fraction."""
-    if isinstance(value, Fraction):
-        return NONNEGATIVE * (value >= 0) | POSITIVE * (value > 0)
-    return NONNEGATIVE | POSITIVE
+def _sign_of_leaf(op: str, data: Data) -> int:
+    """The sign flags of a constant, or of a parameter that comes with what is known of it."""
+    if op == "parameter":
+        return int(data[1]) & (NONNEGATIVE | POSITIVE) if len(data) > 1 else 0
+    if op == "const" and isinstance(data[0], Fraction):
+        return NONNEGATIVE * (data[0] >= 0) | POSITIVE * (data[0] > 0)
+    # pi is the only constant that is no fraction.
+    return NONNEGATIVE | POSITIVE if op == "const" else 0
 
 
 def _inside_domain(op: str, args: Sequence[Known]) -> bool:

@@ -63,10 +63,9 @@ class Tint(NamedTuple):
 
     def uniforms(self, surface: Surface, method: Method) -> dict[str, float]:
         """The parameters that the quantity takes, in its scalar type."""
-        names = (self.formula or surface.field).parameters
         # A formula may have w where f has none.
-        values = {TIME: 0.0, **surface.params}
-        return scalar_uniforms({name: values[name] for name in names} | {OFFSET: method.offset}, self.type)
+        numbers = {TIME: (0.0, 0.0), **surface.settled[1], OFFSET: (method.offset, method.offset)}
+        return scalar_uniforms(numbers, self.type)
 
 
 class Palette(NamedTuple):

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from zeroset.kernel.types import F32, Type
 from zeroset.runtime import Device
-from zeroset.scene.surface import Surface
+from zeroset.scene.surface import Enclosure, Surface
 from zeroset.solve.method import Method
 from zeroset.solve.names import OFFSET, array_names, isovalue_name, length_name, parameter_names
 
@@ -23,12 +23,18 @@ Floats = npt.NDArray[Any]
 
 def stored(exact: npt.NDArray[np.float64], type_: Type) -> tuple[Floats, Floats]:
     """Numbers in a scalar type, and bounds of what that leaves out, rounded up; exactly stored ones have 0."""
+    return stored_between(exact, exact, type_)
+
+
+def stored_between(low: npt.NDArray[np.float64], high: npt.NDArray[np.float64], type_: Type) -> tuple[Floats, Floats]:
+    """The same for numbers that are known to lie between two neighbouring doubles."""
+    exact = 0.5 * low + 0.5 * high
     near = exact.astype(type_.dtype)
-    left_out = np.abs(exact - near.astype(np.float64))
+    left_out = np.maximum(np.abs(low - near), np.abs(high - near))
     error = np.nextafter(left_out.astype(type_.dtype), type_.dtype.type(np.inf))
     # What is too small for a normal number may be flushed to zero, the value as well as its error.
     smallest = np.finfo(type_.dtype).tiny
-    lost = (left_out > 0) | ((exact != 0) & (np.abs(exact) < smallest))
+    lost = (left_out > 0) | ((left_out + np.abs(exact) != 0) & (np.abs(exact) < smallest))
     return near, np.where(lost, np.maximum(error, smallest), type_.dtype.type(0))
 
 
@@ -37,15 +43,16 @@ def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32, pref
 
     ``prefix`` is before the names of the surface's own numbers, where a kernel has several surfaces.
     """
-    values = {name: surface.params[name] for name in surface.field.parameters} | {OFFSET: method.offset}
-    values |= {isovalue_name(i): value for i, value in enumerate(surface.isovalues)}
+    numbers = {OFFSET: method.offset} | {isovalue_name(i): value for i, value in enumerate(surface.isovalues)}
+    values = {**surface.settled[1], **{name: (value, value) for name, value in numbers.items()}}
     named = method.uniforms() | scalar_uniforms(values, type_, prefix)
     return named | {length_name(prefix + name): len(surface.arrays[name]) for name in surface.field.arrays}
 
 
-def scalar_uniforms(values: Mapping[str, float], type_: Type = F32, prefix: str = "") -> dict[str, float]:
-    """Values of scalar parameters, and what storing them leaves out, by uniform name."""
-    near, error = stored(np.array(list(values.values()), np.float64), type_)
+def scalar_uniforms(values: Mapping[str, Enclosure], type_: Type = F32, prefix: str = "") -> dict[str, float]:
+    """Enclosures of scalar parameters as what is stored, and what that leaves out, by uniform name."""
+    low, high = np.array(list(values.values()), np.float64).T
+    near, error = stored_between(low, high, type_)
     named = {}
     for i, name in enumerate(values):
         value_name, error_name = parameter_names(prefix + name, type_)

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from zeroset.errors import FormulaLimitError
-from zeroset.expr import OPS, Expr, continuous, degree, evaluate, fraction, postorder
+from zeroset.expr import OPS, Expr, Settled, continuous, degree, evaluate, fraction, postorder, settled
 from zeroset.scene.parameters import TIME
 
 MOST_WORK = 4000
@@ -61,6 +61,17 @@ class ExprField:
         """N and D of f = N/D; N vanishes where f does and is defined at poles. None where f divides by nothing."""
         parts = fraction(self.expr)
         return None if parts is None else (ExprField(parts[0]), ExprField(parts[1]))
+
+    @cached_property
+    def settled(self) -> Settled:
+        """The expression without parts that parameters alone decide."""
+        return settled(self.expr)
+
+    @cached_property
+    def remaining(self) -> ExprField:
+        """What is left for kernels to calculate where those parts are calculated beforehand."""
+        expr = self.settled.expr
+        return self if expr is self.expr else ExprField(expr)
 
     @cached_property
     def work(self) -> int:

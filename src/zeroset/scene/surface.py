@@ -24,12 +24,15 @@ from zeroset.scene.camera import Camera
 from zeroset.scene.exprfield import ExprField, check_work
 from zeroset.scene.isovalues import colors_of, isovalues_of
 from zeroset.scene.light import Color, Material
-from zeroset.scene.parameters import TIME, array, check_names, scalar
+from zeroset.scene.parameters import LARGEST, TIME, array, check_names, scalar
 
 if TYPE_CHECKING:
     import sympy
 
     from zeroset.scene.solid import Solid
+
+Enclosure = tuple[float, float]
+"""Two doubles with a number between them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +179,19 @@ class Surface:
 
         self.check_work()
         return fit_bounds(self)
+
+    @cached_property
+    def settled(self) -> tuple[ExprField, Mapping[str, Enclosure]]:
+        """f as kernels calculate it, and between which doubles each of its parameters lies."""
+        given = {name: (value, value) for name, value in self.params.items()}
+        try:
+            found = self.field.settled.values(self.params)
+        except FormulaError:
+            return self.field, given
+        if any(max(-low, high) > LARGEST for low, high in found.values()):
+            # Kernels know what to make of numbers that pass the largest one if they come to them by themselves.
+            return self.field, given
+        return self.field.remaining, given | found
 
     def check_work(self) -> None:
         """Raise ``FormulaLimitError`` for a formula that no compiler digests while somebody waits."""

@@ -10,6 +10,7 @@ import pytest
 import zeroset as zs
 from zeroset.arith import F32, F64, AffineSystem
 from zeroset.expr import FUNCTIONS, OPS
+from zeroset.runtime.cpu import CpuDevice
 
 ONE_ARGUMENT = sorted(name for name in FUNCTIONS if hasattr(AffineSystem(F64).constant(1.0, 1.0), name))
 EXPECTED = {"sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "cbrt"}
@@ -63,6 +64,12 @@ BORDERS = [
     ("x^2 + y^2 + z^2 - if(a < 1, 0.5, 1)", {"a": 1.0}, 1.0),
     ("x^2 + y^2 + z^2 - if(a <= 1, 0.5, 1)", {"a": 1.0}, 0.5),
     ("x^2 + y^2 + z^2 - sum(i, sqrt(r[i]))", {"r": [0.0, 1.0]}, 1.0),
+    ("x^2 + y^2 + z^2 - floor(2a)", {"a": 0.5}, 1.0),
+    ("x^2 + y^2 + z^2 - ceil(a b)", {"a": 0.25, "b": 4.0}, 1.0),
+    ("x^2 + y^2 + z^2 - 1 - sqrt(a - b)", {"a": 0.1, "b": 0.1}, 1.0),
+    ("x^2 + y^2 + z^2 - 1 - acosh(a)", {"a": 1.0}, 1.0),
+    ("x^2 + y^2 + z^2 - 1 - 0.1 cos(1000000 a)", {"a": 12.7}, 1 + 0.1 * math.cos(12_700_000)),
+    ("x^2 + y^2 + z^2 - if(a^2 + b < 1, 0.5, 1)", {"a": 0.75, "b": 0.4375}, 1.0),
 ]
 
 
@@ -76,6 +83,24 @@ def test_a_parameter_at_the_end_of_a_domain_is_just_there(
     hits = zs.cast(surface, [-5.0, 0.1, 0.2], [1.0, 0.0, 0.0], method=method)
     assert hits.status.tolist() == [zs.HIT]
     assert hits.t[0] == pytest.approx(5 - math.sqrt(square - 0.05), abs=1e-3)
+
+
+def test_sliders_move_what_parameters_decide_without_compiling(monkeypatch: pytest.MonkeyPatch) -> None:
+    surface = zs.surface("x^2 + y^2 + (z - sin(2a))^2 = floor(b)/4 + 0.1", params={"a": 0.1, "b": 1.0}, bounds=3.0)
+    zs.cast(surface, [0, 0, -5], [0, 0, 1], device="cpu")
+    monkeypatch.setattr(CpuDevice, "_write", None)
+    for a, b in [(0.1, 1.0), (-0.5, 1.5), (0.3, 4.0), (1e6, 0.2)]:
+        hits = zs.cast(surface.with_params(a=a, b=b), [0, 0, -5], [0, 0, 1], device="cpu")
+        assert hits.t[0] == pytest.approx(5 + math.sin(2 * a) - math.sqrt(math.floor(b) / 4 + 0.1), abs=1e-3)
+
+
+def test_what_f32_cannot_hold_is_found_in_f64() -> None:
+    """A part that is larger than any number of kernels in f32 is left to kernels, which know what to make of it."""
+    surface = zs.surface("x^20 + y^20 + z^20 = a^20", params={"a": 100.0}, bounds=200.0)
+    assert surface.settled[0] is surface.field
+    hits = zs.cast(surface, [1.0, 2.0, -500.0], [0, 0, 1], device="cpu")
+    assert hits.status.tolist() == [zs.HIT]
+    assert hits.t[0] == pytest.approx(400, abs=1e-2)
 
 
 @pytest.mark.parametrize("at", [-1e17, -1e8, -1e5, -3.0, -1e-3, 0.0, 2.0, 1e20])
