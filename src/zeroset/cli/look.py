@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from zeroset.cli import paint
 from zeroset.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 MATERIAL = ("opacity", "reflectance", "ior")
 OPTIONS = (
+    *paint.OPTIONS,
     click.option("--shadows", is_flag=True, help="Lights throw shadows."),
     click.option("--environment", metavar="sky|room|FILE", help="What is seen all around. Six FILEs: sky_{face}.png"),
     click.option("--opacity", type=float, help="1 for solid; below, what lies behind is seen through it."),
@@ -43,7 +45,8 @@ def look_options(function: F) -> F:
 
 def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
     """The scene with what the options say; what they leave out stays as it is."""
-    changes = {name: look[name] for name in MATERIAL if look[name] is not None}
+    colors = paint.sides(look)
+    changes = {name: look[name] for name in MATERIAL if look[name] is not None} | colors
     if look["last_solid"]:
         changes["last_solid"] = True
     coloring = _coloring(scene.material.coloring, look)
@@ -64,7 +67,9 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
         )
     around = look["environment"] or scene.environment
     shadows = look["shadows"] or scene.shadows
-    return dataclasses.replace(scene, surface=shown, material=material, environment=around, shadows=shadows)
+    scene = dataclasses.replace(scene, surface=shown, material=material, environment=around, shadows=shadows)
+    paint.check_sides(scene, colors)
+    return paint.painted(scene, look)
 
 
 def _coloring(coloring: Coloring | None, look: dict[str, Any]) -> Coloring | None:

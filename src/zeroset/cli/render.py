@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 @click.option("-o", "--output", default="zeroset.png", show_default=True, help="Picture to write.")
 @click.option("-s", "--size", default="1024", show_default=True, help="Pixels: 800 or 1280x720.")
 @click.option("--antialias", type=int, default=1, help="Rays of each pixel at an edge; 16 makes edges smooth.")
+@click.option("--samples", type=int, default=1, help="Rays of every pixel, instead.")
 @click.option("-t", "--tolerance", type=float, help="World length to which roots are found.")
 @click.option("--eye", metavar="X,Y,Z", help="Where the camera is.")
 @click.option("--target", metavar="X,Y,Z", help="What it looks at.")
@@ -59,6 +60,7 @@ def command(
     output: str,
     size: str,
     antialias: int,
+    samples: int,
     tolerance: float | None,
     eye: str | None,
     target: str | None,
@@ -102,6 +104,7 @@ def command(
             device,
             tolerance,
             antialias=antialias,
+            samples=samples,
             progress=progress,
         )
     spent = time.perf_counter() - begin

@@ -14,6 +14,7 @@ from zeroset.rendering.buffers import CLEAR, END, Ends
 from zeroset.rendering.materials import material_numbers
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Rays
+from zeroset.scene.encoding import srgb
 from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene
 
@@ -41,6 +42,8 @@ class Smooth(NamedTuple):
         for name, value in (("antialias", antialias), ("samples", samples)):
             if not (isinstance(value, int) and 1 <= value <= MOST_SAMPLES):
                 raise ParameterError(f"{name} must be a whole number from 1 to {MOST_SAMPLES}, not {value!r}")
+        if samples > 1 and antialias > 1:
+            raise ParameterError("antialias is for pixels at edges and samples for every pixel: give one of the two")
         return cls(samples, True) if samples > 1 else cls(antialias, False)
 
 
@@ -170,12 +173,6 @@ class Illumination(NamedTuple):
         texels = None if scene.environment is None else scene.environment.texels()
         shadows = tuple(places) if scene.shadows else ()
         return cls(shadows, lights, texels, tolerance, depth, smooth.samples, smooth.everywhere)
-
-
-def srgb(linear: float) -> float:
-    """The sRGB encoding of one linear channel in [0, 1]."""
-    x = min(max(linear, 0.0), 1.0)
-    return 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
 
 
 def shading_uniforms(material: Material, lights: Sequence[Light], background: Color, rays: Rays) -> dict[str, float]:

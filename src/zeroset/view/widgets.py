@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from zeroset.rendering.shading import srgb
+from zeroset.scene.encoding import linear, srgb
 from zeroset.scene.light import Color
 from zeroset.view import theme
 
@@ -73,17 +73,6 @@ def remover(imgui: Any, hint: str) -> bool:
     clicked = imgui.button(REMOVE, (SMALL, 0.0))
     imgui.set_item_tooltip(hint)
     return bool(clicked)
-
-
-def linear(encoded: float) -> float:
-    """The linear light of an sRGB channel in [0, 1].
-
-    Example:
-        >>> round(linear(srgb(0.25)), 9)
-        0.25
-    """
-    x = min(max(encoded, 0.0), 1.0)
-    return x / 12.92 if x <= 0.04045 else float(((x + 0.055) / 1.055) ** 2.4)
 
 
 def said(imgui: Any, text: str, tint: theme.Color) -> None:

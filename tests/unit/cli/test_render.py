@@ -137,6 +137,15 @@ BAD = [
     ([BALL, "-p", "a=1", "-p", "a=2"], ["the parameter a is given twice"]),
     ([BALL, "--ior", "1.3"], ["none is transparent", "--opacity"]),
     ([BALL, "--last-solid"], ["none is transparent", "--opacity"]),
+    ([BALL, "--front", "oranje"], ["cannot read the colour 'oranje'", "#ff8800"]),
+    ([BALL, "--background", "#12"], ["cannot read the colour '#12'", "--background"]),
+    ([BALL, "--background", "red", "--environment", "sky"], ["hide the background"]),
+    ([BALL, "--front", "red", "--color-by", "z"], ["not seen", "coloured by a quantity"]),
+    ([BALL, "--back", "red", "--isovalues", "0,0.1"], ["not seen", "isovalue"]),
+    ([BALL, "--light", "1,2"], ["cannot read the light '1,2'", "--light"]),
+    ([BALL, "--light", "0,0,0"], ["direction must not be zero"]),
+    ([BALL, "--samples", "0"], ["samples"]),
+    ([BALL, "--samples", "4", "--antialias", "4"], ["antialias"]),
     (["x + a", "-p", "a=inf"], ["finite"]),
     ([BALL, "--eye", "1,2"], ["cannot read the eye"]),
     ([BALL, "--eye", "0,0,0"], ["its own place"]),
@@ -195,6 +204,10 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
         "layers": ("--opacity", "0.3"),
         "solid": ("--opacity", "0.3", "--last-solid"),
         "smooth": ("--antialias", "8"),
+        "all": ("--samples", "4"),
+        "front": ("--front", "tomato"),
+        "paper": ("--background", "black"),
+        "sun": ("--light=1,-1,2", "--light=-1,0,0", "--back=#ff0000"),
     }
     drawn = {}
     for name, options in looks.items():
@@ -208,6 +221,11 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
     assert not np.array_equal(drawn["layers"], drawn["solid"])
     assert zs.load(tmp_path / "solid.toml").material.last_solid
     assert zs.load(tmp_path / "shadows.toml").shadows
+    assert (drawn["paper"][0, 0] == 0).all()
+    assert zs.load(tmp_path / "front.toml").material.front[0] == 1.0
+    sunny = zs.load(tmp_path / "sun.toml")
+    assert sunny.material.back == (1.0, 0.0, 0.0)
+    assert [(light.direction, light.headlight) for light in sunny.lights] == [((1, -1, 2), False), ((-1, 0, 0), False)]
     assert zs.load(tmp_path / "sky.toml").environment is not None
 
 

@@ -13,11 +13,12 @@ import zeroset as zs
 from zeroset.errors import ParameterError, UnknownNameError, ZerosetError
 from zeroset.rendering.drawn import as_drawn
 from zeroset.rendering.frame import settle
-from zeroset.rendering.shading import Lighting, Smooth, srgb
+from zeroset.rendering.shading import Lighting, Smooth
 from zeroset.rendering.tint import found_range
 from zeroset.runtime import get_device
 from zeroset.runtime.cpu import CpuDevice
 from zeroset.scene.colormap import NEUTRAL, table
+from zeroset.scene.encoding import srgb
 
 DEVICES = ["cpu", pytest.param("gpu", marks=needs_gpu)]
 SIZE = 64

@@ -11,7 +11,7 @@ from tests.gpus import needs_gpu
 
 import zeroset as zs
 from zeroset.errors import ParameterError, SceneFileError
-from zeroset.rendering.shading import srgb
+from zeroset.scene.encoding import srgb
 from zeroset.scene.environment import Environment, sky
 from zeroset.scene.radiance import radiance
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from zeroset.rendering.shading import srgb
+from zeroset.scene.encoding import linear, srgb
 from zeroset.scene.isovalues import MOST_ISOVALUES
 from zeroset.view.item import with_levels
 from zeroset.view.levels import Level
 from zeroset.view.panels.context import Context
 from zeroset.view.spans import Span
 from zeroset.view.state import State, with_another_level
-from zeroset.view.widgets import ROOM, linear, remover
+from zeroset.view.widgets import ROOM, remover
 
 
 def draw(state: State, context: Context) -> State:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from zeroset.rendering.shading import srgb
+from zeroset.scene.encoding import srgb
 from zeroset.scene.light import Color
 from zeroset.view import theme
 from zeroset.view.item import Item
