@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from zeroset.cli.progress import Progress
-from zeroset.cli.source import FormulaCommand, existing_folder, find_scene
+from zeroset.cli.source import FormulaCommand, existing_folder, find_scene, with_isovalues
 
 if TYPE_CHECKING:
     from zeroset.export.triangles import Mesh
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 @click.option("-d", "--device", default="auto", show_default=True, help="Where to run.")
 @click.option("-o", "--output", default="zeroset.stl", show_default=True, help="File: .stl, .obj, .ply or .glb.")
 @click.option("-r", "--resolution", type=int, default=128, show_default=True, help="Cells along the bounds.")
+@click.option("--isovalues", metavar="V,V,...", help="Mesh f = v for each of these values, instead of f = 0.")
 @click.option("--cap/--open", default=False, help="Close the mesh where the bounds cut it, or leave it open there.")
 @click.option("--precision", default="auto", show_default=True, help="What f is evaluated in: f32, f64 or auto.")
 def command(
@@ -31,6 +32,7 @@ def command(
     device: str,
     output: str,
     resolution: int,
+    isovalues: str | None,
     cap: bool,
     precision: str,
 ) -> None:
@@ -42,7 +44,7 @@ def command(
     from zeroset.export.mesh import mesh
 
     path = _mesh_path(output)
-    scene = find_scene(source, params, bounds)
+    scene = with_isovalues(find_scene(source, params, bounds), isovalues)
     begin = time.perf_counter()
     with Progress("meshing") as progress:
         made = mesh(scene, resolution, cap, device, precision, progress)

@@ -11,7 +11,7 @@ import threading
 import weakref
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +25,7 @@ from zeroset.rendering.materials import Table, material_table
 from zeroset.rendering.shading import Illumination, Lighting
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device
+from zeroset.runtime.device import HostMemory
 from zeroset.scene.light import Material
 from zeroset.solve.method import Method
 
@@ -61,6 +62,16 @@ class Structure(NamedTuple):
     tint: str
 
 
+class Memory(Protocol):
+    """What is asked of a device once a frame is drawn."""
+
+    def read(self, buffer: Any) -> Any:
+        """A buffer as an array."""
+
+    def copy(self, buffer: Any) -> Any:
+        """A copy of a buffer."""
+
+
 class GBuffer:
     """One frame's outputs: shared with the frame until its next draw, its own from then on; read when asked for.
 
@@ -69,13 +80,19 @@ class GBuffer:
     """
 
     def __init__(
-        self, layout: Layout, device: Device, buffers: Mapping[str, Any], range: tuple[float, float] | None = None
+        self, layout: Layout, device: Memory, buffers: Mapping[str, Any], range: tuple[float, float] | None = None
     ) -> None:
         self.range = range
         self._layout = layout
         self._device = device
         self._buffers = buffers
         self._lock = threading.Lock()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # What is pickled or copied lies in the host's memory from then on.
+        with self._lock:
+            buffers = {name: self._device.read(buffer).copy() for name, buffer in self._buffers.items()}
+        return GBuffer, (self._layout, HostMemory(), buffers, self.range)
 
     def has(self, name: str) -> bool:
         """Whether there is such an output."""

@@ -37,7 +37,16 @@ def test_gallery_names_scene_files_and_parameters(zeroset: Run, tmp_path: Path) 
     assert zeroset("mesh", "-x^2 + y", "-b", "-1,-1,-1,1,1,1", "-r", "8", "-o", "d.ply").status == 0
 
 
+def test_isovalues_become_one_file(zeroset: Run, tmp_path: Path) -> None:
+    ran = zeroset("mesh", "x^2 + y^2 + z^2", "-b", "1.5", "-r", "24", "--isovalues", "0.25,1", "-o", "shells.ply")
+    assert (ran.status, ran.err) == (0, "")
+    both = trimesh.load_mesh(tmp_path / "shells.ply")
+    assert both.is_watertight
+    assert both.volume == pytest.approx(4 / 3 * 3.14159 * (1 + 0.125), rel=0.02)
+
+
 BAD = [
+    ([BALL, "--isovalues", "0,a"], ["cannot read the isovalues '0,a'"]),
     (["x^2 + "], ["a value is missing", "^"]),
     (["a*x + y"], ["unknown name a", "-p a=1"]),
     (["barth-sextik"], ["did you mean barth-sextic"]),

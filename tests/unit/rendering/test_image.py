@@ -1,6 +1,9 @@
 from __future__ import annotations
 
+import copy
 import io
+import pickle
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -79,3 +82,17 @@ def test_other_formats_are_refused(image: zs.Image, name: str, tmp_path: Path) -
 def test_pictures_that_a_format_cannot_hold() -> None:
     with pytest.raises(OutputError, match=r"as WEBP.*\n.*use .png"):
         encode(np.zeros((1, 20000, 3), np.uint8), "WEBP")
+
+
+@pytest.mark.parametrize("again", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"])
+@pytest.mark.parametrize("color_by", [None, "z"])
+def test_pictures_can_be_sent_and_copied(again: Callable[[zs.Image], zs.Image], color_by: str | None) -> None:
+    image = zs.render(BALL, (48, 32), CAMERA, color_by=color_by)
+    other = again(image)
+    assert np.array_equal(other.pixels, image.pixels)
+    for name in image.outputs:
+        assert np.array_equal(other.aov(name), image.aov(name), equal_nan=True)
+    assert (other.range, other.certified, repr(other)) == (image.range, image.certified, repr(image))
+    # The frame that has drawn it goes on drawing.
+    zs.render(BALL.with_bounds(0.5), (48, 32), CAMERA, color_by=color_by)
+    assert np.array_equal(other.aov("t"), image.aov("t"), equal_nan=True)
