@@ -65,7 +65,7 @@ class Structure(NamedTuple):
 class Memory(Protocol):
     """What is asked of a device once a frame is drawn."""
 
-    def read(self, buffer: Any) -> Any:
+    def read(self, buffer: Any) -> npt.NDArray[Any]:
         """A buffer as an array."""
 
     def copy(self, buffer: Any) -> Any:
