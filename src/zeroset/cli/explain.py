@@ -104,6 +104,7 @@ def _drawn(thing: Drawable, method: Method) -> Iterator[str]:
     for surface in thing.surfaces:
         yield f"operations  {surface.field.expr.size} distinct"
         yield from _short(surface.field.expr)
+        yield from _beforehand(surface)
 
 
 def _thing(thing: Surface | Solid) -> Iterator[str]:
@@ -136,6 +137,18 @@ def _formula(surface: Surface) -> Iterator[str]:
     yield f"parameters  {', '.join(values) or 'none'}"
     if surface.isovalues:
         yield f"isovalues   {', '.join(f'{value:g}' for value in surface.isovalues)}"
+
+
+def _beforehand(surface: Surface) -> Iterator[str]:
+    """What of f parameters alone decide, and kernels are given."""
+    from zeroset.expr.text import brief
+
+    field, numbers = surface.settled
+    parts = {name: part for name, part in surface.field.settled.parts.items() if name in field.parameters}
+    if parts:
+        yield f"in kernels  {brief(field.expr, 400)} = 0"
+    for name, part in parts.items():
+        yield f"  {name} = {brief(part)} = {numbers[name][0]:.8g}"
 
 
 def _short(expr: Expr) -> Iterator[str]:

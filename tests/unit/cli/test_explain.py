@@ -26,6 +26,15 @@ def test_the_short_form_fits_a_screen(zeroset: Run) -> None:
     assert len(ran.out.splitlines()) < 40
 
 
+def test_what_parameters_alone_decide_is_shown(zeroset: Run) -> None:
+    ran = zeroset("explain", "2a x + y = floor(b/3)", "-p", "a=1", "-p", "b=4", "-b", "2")
+    assert ran.status == 0
+    assert "in kernels  part 0*x + y - part 1 = 0" in ran.out
+    assert "\n  part 0 = 2*a = 2\n" in ran.out
+    assert "\n  part 1 = floor(1/3*b) = 1\n" in ran.out
+    assert "in kernels" not in zeroset("explain", "x + a y", "-p", "a=2", "-b", "2").out
+
+
 def test_a_gallery_surface_and_a_method_without_proof(zeroset: Run) -> None:
     ran = zeroset("explain", "barth-sextic", "-m", "marching-points")
     assert ran.status == 0
