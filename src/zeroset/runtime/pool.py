@@ -34,7 +34,11 @@ def thread_count() -> int:
 
 
 class _Worker:
-    """One waiting thread."""
+    """One waiting thread.
+
+    What it was asked for and what it has done are counted, and only the counts tell whether it is done: an interrupt may
+    come between any two steps of who asks. The locks are there to sleep on.
+    """
 
     def __init__(self, number: int) -> None:
         self.wake = threading.Lock()
@@ -44,32 +48,52 @@ class _Worker:
         self.job: Job | None = None
         self.error: BaseException | None = None
         self.stopped = False
+        self.closed = False
+        self.asked = self.taken = self.finished = 0
         threading.Thread(target=self._live, name=f"zeroset-{number}", daemon=True).start()
 
     def _live(self) -> None:
         while True:
             self.wake.acquire()
-            job = self.job
-            if job is None:
+            if self.closed:
                 return
-            try:
-                while not self.stopped and job():
-                    pass
-            except BaseException as error:  # handed to the thread that waits for the job
-                self.error = error
-            self.job = job = None
-            self.done.release()
+            if self.taken != self.asked:
+                self.taken = self.asked
+                self._work()
+                self.finished = self.taken
+                _release(self.done)
+
+    def _work(self) -> None:
+        try:
+            while not self.stopped and self.job is not None and self.job():
+                pass
+        except BaseException as error:  # handed to the thread that waits for the job
+            self.error = error
+        self.job = None
 
     def begin(self, job: Job) -> None:
         self.job, self.error, self.stopped = job, None, False
-        self.wake.release()
+        self.asked += 1
+        _release(self.wake)
 
     def wait(self) -> BaseException | None:
-        # A wait without limit cannot be interrupted on every system.
-        while not self.done.acquire(timeout=_LOOK_UP):
-            pass
+        """Its error, once it has done all that it was asked for; may be called again after an interrupt."""
+        while self.finished != self.asked:
+            # A wait without limit cannot be interrupted on every system.
+            if not self.done.acquire(timeout=_LOOK_UP) and self.taken != self.asked:
+                _release(self.wake)
         error, self.error = self.error, None
         return error
+
+    def close(self) -> None:
+        self.closed = True
+        _release(self.wake)
+
+
+def _release(lock: threading.Lock) -> None:
+    """Release a lock that only this side releases."""
+    if lock.locked():
+        lock.release()
 
 
 class Pool:
@@ -147,5 +171,5 @@ class Pool:
         """End the threads."""
         with self._busy:
             for worker in self._workers:
-                worker.wake.release()
+                worker.close()
             self._workers = []

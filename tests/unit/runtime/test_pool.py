@@ -106,6 +106,46 @@ def test_an_interrupt_ends_the_work_of_all() -> None:
     pool.close()
 
 
+def test_an_interrupt_at_any_moment_ends_the_job() -> None:
+    """Between asking a thread and waiting for it are many steps, and Ctrl-C may come after each of them."""
+    if not hasattr(os, "fork"):
+        pytest.skip("this system does not fork")
+    program = """
+import os, random, select, signal, time
+from itertools import count
+from zeroset.runtime.pool import Pool
+
+def run(told):
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    pool = Pool(2)
+    os.write(told, b"r")
+    try:
+        while True:
+            numbers = count()
+            pool.run(lambda: next(numbers) < 40)
+    except KeyboardInterrupt:
+        os.write(told, b"k")
+        os._exit(0)
+
+random.seed(1)
+for _ in range(100):
+    here, there = os.pipe()
+    child = os.fork()
+    if child == 0:
+        run(there)
+    assert os.read(here, 1) == b"r"
+    time.sleep(random.uniform(0.002, 0.02))
+    os.kill(child, signal.SIGINT)
+    ended = select.select([here], [], [], 10)[0]
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    assert ended, "an interrupted job has not come back"
+    os.close(here)
+    os.close(there)
+"""
+    subprocess.run([sys.executable, "-W", "ignore", "-c", program], check=True, timeout=120)
+
+
 def test_threads_of_a_forked_process() -> None:
     if not hasattr(os, "fork"):
         pytest.skip("this system does not fork")
