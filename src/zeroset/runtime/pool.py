@@ -36,8 +36,8 @@ def thread_count() -> int:
 class _Worker:
     """One waiting thread.
 
-    What it was asked for and what it has done are counted, and only the counts tell whether it is done: an interrupt may
-    come between any two steps of who asks. The locks are there to sleep on.
+    What it was asked for and what it has done are counted, and only the counts tell whether it is done: an interrupt
+    may come between any two steps of who asks. The locks are there to sleep on.
     """
 
     def __init__(self, number: int) -> None:
