@@ -51,6 +51,11 @@ class ExprField:
         """Whether f has no jumps, poles and ends of its domain where its parameters are positive."""
         return self.degree is not None or continuous(self.expr)
 
+    @property
+    def total(self) -> bool:
+        """Whether f has a value everywhere, though it may jump."""
+        return self.expr.is_total
+
     @cached_property
     def jumps(self) -> bool:
         """Whether f may jump for another reason than that it is divided by 0."""

@@ -163,7 +163,7 @@ def _sign(thing: Surface | Solid, system: System, low: Corners, high: Corners) -
         f = _over(thing, system, low, high)
         # What has no value is not <= 0: inside is only where f is known to be defined.
         outside = np.asarray(f.signs()[0]) | np.asarray(f.empty)
-        inside = ~np.asarray(f.contains_zero()) & ~outside & np.asarray(f.defined)
+        inside = ~np.asarray(f.contains_zero()) & ~outside & (np.asarray(f.defined) | thing.field.total)
         return np.broadcast_to(np.where(outside, 1, np.where(inside, -1, 0)), (len(low),)).astype(np.int8)
     signs = [_sign(part, system, low, high) for part in thing.of]
     if thing.op == "not":

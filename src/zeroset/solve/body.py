@@ -70,12 +70,22 @@ class LoweredBody:
         return result
 
     def jumps(self, system: Any, point: Point) -> Value:
-        """Whether a formula of it may jump, or have no value, at any of these points."""
-        result = constant(False, BOOL)
-        for leaf, _ in self.body.leaves:
-            if not leaf.field.continuous:
-                result = result | ~lift(self.leaf(leaf).evaluate(system, *point).defined, BOOL)
-        return result
+        """Whether a formula of it may jump, or have no value, at any of these points, where that matters to a solid."""
+        return self._jumps(self.body.tree, system, point)
+
+    def _jumps(self, tree: Tree, system: Any, point: Point) -> Value:
+        match tree:
+            case Leaf():
+                if tree.field.continuous:
+                    return constant(False, BOOL)
+                jumps = ~lift(self.leaf(tree).evaluate(system, *point).defined, BOOL)
+                # What is on one side of 0 altogether is inside or outside, jump as it may; levels have many sides.
+                return jumps if tree.levels else jumps & self._sign(tree, system, point).eq(0.0)
+            case Complement():
+                return self._jumps(tree.of, system, point)
+            case Join():
+                u, v = (self._jumps(each, system, point) for each in (tree.left, tree.right))
+                return (u | v) & self._sign(tree, system, point).eq(0.0)
 
     def _sign(self, tree: Tree, system: Any, point: Point) -> Value:
         """+1 outside, -1 inside, 0 where that is not certain."""
@@ -84,7 +94,9 @@ class LoweredBody:
                 f = self.leaf(tree).evaluate(system, *point)
                 # What has no value is not <= 0: outside where f is above 0 or nothing, inside only where it is defined.
                 outside = lift(f.signs()[0], BOOL) | lift(f.empty, BOOL)
-                inside = ~lift(f.contains_zero(), BOOL) & ~outside & lift(f.defined, BOOL)
+                inside = ~lift(f.contains_zero(), BOOL) & ~outside
+                if not tree.field.total:
+                    inside = inside & lift(f.defined, BOOL)
                 one = constant(1.0, self.type)
                 return outside.select(one, inside.select(-one, 0.0))
             case Complement():

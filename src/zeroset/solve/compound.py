@@ -91,7 +91,8 @@ def _solid(problem: Problem, body: LoweredBody, tree: Tree, system: Any, t: Any,
     match tree:
         case Leaf():
             f = body.leaf(tree).along(system, problem.ray, t)
-            return _certain(_inside_where_defined(read(problem, f, over), over), tree, over)
+            seen = read(problem, f, over)
+            return _certain(seen if tree.field.total else _inside_where_defined(seen, over), tree, over)
         case Complement():
             span = _solid(problem, body, tree.of, system, t, over)
             return span._replace(before=-span.before, after=-span.after)
@@ -141,15 +142,16 @@ def _join(u: _Span, v: _Span, union: bool) -> _Span:
     for side in (u, v):
         left = side.before.eq(alone).select(left.maximum(side.left), left)
         right = side.after.eq(alone).select(right.minimum(side.right), right)
-    # A side with all its roots outside of what is left has none that counts.
-    marks = [((s.left <= right) & (s.right >= left)).select(s.mark, constant(0, U32)) for s in (u, v)]
+    # A side with all its roots outside of what is left has none that counts, and one sign there, jump as it may.
+    counts = [(s.left <= right) & (s.right >= left) for s in (u, v)]
+    marks = [count.select(s.mark, constant(0, U32)) for s, count in zip((u, v), counts, strict=True)]
     pick = Value.minimum if union else Value.maximum
     return _Span(
         left,
         right,
         pick(u.before, v.before),
         pick(u.after, v.after),
-        u.defined & v.defined,
+        (u.defined | ~counts[0]) & (v.defined | ~counts[1]),
         u.width.maximum(v.width),
         marks[0] | marks[1],
     )

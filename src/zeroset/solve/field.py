@@ -45,6 +45,10 @@ class Field(Protocol):
         """Whether f is likely to be defined and continuous everywhere; nothing that is proven rests on it."""
 
     @property
+    def total(self) -> bool:
+        """Whether f certainly has a value everywhere, though it may jump."""
+
+    @property
     def jumps(self) -> bool:
         """Whether f may jump for another reason than that it is divided by 0."""
 
