@@ -165,7 +165,7 @@ class Chain:
 
         def again() -> Values:
             better = exact.nearest(
-                lambda body: in_doubles(problem_on(body, now.ray, now.start, farthest, None), clear),
+                lambda body: in_doubles(body, problem_on(body, now.ray, now.start, farthest, None), clear),
                 lambda problem: stride(problem, leaving),
             )
             return flat(better, behind(better))

@@ -13,14 +13,18 @@ from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, co
 from zeroset.rendering.buffers import EMPTY_TILE, FORMER, FROM, NOTHING, ONWARD, SECOND
 from zeroset.rendering.gbuffer import ask_second_look, behind, write
 from zeroset.rendering.primary import (
+    FINER,
     as_fine_as_asked,
     camera_ray,
     exact_ray,
     given_ray,
     in_doubles,
     problem_on,
+    staged,
     stride,
     t_range,
+    tolerance_at,
+    tracing,
 )
 from zeroset.solve.body import LoweredBody
 from zeroset.solve.method import Method
@@ -48,7 +52,10 @@ def layer_kernel(shape: Shape, method: Method, pixels: bool, second: bool) -> Ke
         start = load(builder.buffer(FROM, F32), lane)
         near, far = t_range(builder)
         search = _Search(
-            subject, lambda body: problem_on(body, ray, near.maximum(start), far, None, not pixels), method.trace
+            subject,
+            lambda body: problem_on(body, ray, near.maximum(start), far, None, not pixels),
+            tracing(method),
+            lambda at: tolerance_at(builder, ray, at),
         )
         # Where f64 cannot tell whether what touches a hit is a second one, it stays unresolved.
         former = None if second else load(builder.buffer(FORMER, U32), lane)
@@ -74,8 +81,9 @@ def second_layer_kernel(shape: Shape, offset: bool, pixels: bool) -> Kernel:
         near, far = t_range(builder)
         search = _Search(
             subject,
-            lambda body: in_doubles(problem_on(body, ray, near.maximum(start), far, None, not pixels), clear),
-            stride,
+            lambda body: in_doubles(body, problem_on(body, ray, near.maximum(start), far, None, not pixels), clear),
+            staged(stride),
+            lambda at: tolerance_at(builder, ray, at.convert(F32)).convert(F64) * FINER,
         )
         answer, _, _ = beyond(search, start)
         write(builder, subject, lane, exact_ray(ray), answer)
@@ -90,11 +98,13 @@ class _Search(NamedTuple):
         subject: the bodies.
         problem_of: the search for one of them.
         trace: searches.
+        tolerance: around a place on the ray, whatever each body's own search along all of it can tell.
     """
 
     subject: Subject
     problem_of: Callable[[LoweredBody], Problem]
     trace: Callable[[Problem], Answer]
+    tolerance: Callable[[Value], Value]
 
     def after(self, at: Value) -> Answer:
         """The first find behind a place on the ray."""
@@ -127,7 +137,8 @@ def beyond(search: _Search, start: Value, former: Value | None = None) -> tuple[
         begin = begin.minimum(other.t0)
     later = start.convert(problem.type) > NOTHING * 0.5
     before = later if former is None else former.eq(UNRESOLVED)
-    reach, past = problem.tolerance * TOUCHING, problem.tolerance * PAST
+    tolerance = search.tolerance(later.select(start.convert(problem.type), begin))
+    reach, past = tolerance * TOUCHING, tolerance * PAST
     begin = later.select(begin + past, begin)
     none, zero = constant(0, U32), problem.number(0.0)
 

@@ -7,11 +7,14 @@ where the first search had proven it clear. It goes to the few rays on the list 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from zeroset.kernel import F32, F64, U32, Kernel, KernelBuilder, Value, constant, if_, load
 from zeroset.rendering.buffers import SECOND, Ends
 from zeroset.rendering.front import ask_for_thin
 from zeroset.rendering.gbuffer import ask_second_look, write, write_ends
 from zeroset.rendering.layout import pixel_coordinates, tile_of
+from zeroset.rendering.stages import RESOLUTION, in_stages
 from zeroset.rendering.view import pixel_ray
 from zeroset.scene.clip import clip
 from zeroset.solve.body import LoweredBody
@@ -27,8 +30,6 @@ from zeroset.solve.walk import Striding
 
 FINER = 2.0**-12
 """Tolerance of a second look as a part of the first one's."""
-RESOLUTION = 2.0**-20
-"""The shortest step that moves along a ray in f32, as a part of t."""
 COARSE = 4.0
 """Tolerances that a find may be off by."""
 
@@ -51,11 +52,25 @@ def problem_on(
     builder = body.builder
     t0, t1 = clip(builder, body.body.kind, ray.origin, ray.direction, body.body.prefix)
     t0, t1 = t0.maximum(near), t1.minimum(far)
-    # A tolerance below t's own resolution would ask for steps that do not move.
-    resolution = abs(t0).maximum(abs(t1)) * RESOLUTION
-    tolerance = _asked(builder, ray).maximum(resolution)
+    tolerance = tolerance_at(builder, ray, abs(t0).maximum(abs(t1)))
     step = (t1 - t0) * 0.125 if step is None else step
-    return Problem(body.first, ray, t0, t1, tolerance, step, None if body.body.plain else body, strict)
+    asked = _asked(builder, ray) if strict else None
+    return Problem(body.first, ray, t0, t1, tolerance, step, None if body.body.plain else body, strict, asked)
+
+
+def tolerance_at(builder: KernelBuilder, ray: Ray, t: Value) -> Value:
+    """The tolerance around a place; one below t's own resolution would ask for steps that do not move."""
+    return _asked(builder, ray).maximum(abs(t) * RESOLUTION[F32])
+
+
+def tracing(method: Method) -> Callable[[Problem], Answer]:
+    """A method's search, stage by stage where all of a ray shall be known as closely as was asked for."""
+    return staged(method.trace) if method.certified else method.trace
+
+
+def staged(trace: Callable[[Problem], Answer]) -> Callable[[Problem], Answer]:
+    """A certified search, stage by stage where a tolerance has been asked for."""
+    return lambda problem: trace(problem) if problem.asked is None else in_stages(problem, trace)
 
 
 def _asked(builder: KernelBuilder, ray: Ray) -> Value:
@@ -66,7 +81,7 @@ def _asked(builder: KernelBuilder, ray: Ray) -> Value:
 
 def as_fine_as_asked(builder: KernelBuilder, ray: Ray, answer: Answer) -> Answer:
     """The answer of a search in f32, with what lies so far away that f32 cannot keep the tolerance as unresolved."""
-    coarse = abs(answer.t) * RESOLUTION > _asked(builder, ray) * COARSE
+    coarse = abs(answer.t) * RESOLUTION[F32] > _asked(builder, ray) * COARSE
     rough = coarse & answer.status.eq(HIT)
     return answer._replace(status=rough.select(constant(UNRESOLVED, U32), answer.status))
 
@@ -97,7 +112,7 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
             tile = tile_of(lane)
             near = load(builder.buffer("tile_start", F32), tile)
             step = load(builder.buffer("tile_step", F32), tile)
-        answer = subject.nearest(lambda body: problem_on(body, ray, near, far, step, not pixels), method.trace)
+        answer = subject.nearest(lambda body: problem_on(body, ray, near, far, step, not pixels), tracing(method))
         if method.certified:
             answer = as_fine_as_asked(builder, ray, answer)
         write(builder, subject, lane, ray, answer, ends)
@@ -117,7 +132,7 @@ def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), bea
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)
         near, far = t_range(builder)
         answer = subject.nearest(
-            lambda body: in_doubles(problem_on(body, ray, near, far, None, not pixels), clear), stride
+            lambda body: in_doubles(body, problem_on(body, ray, near, far, None, not pixels), clear), staged(stride)
         )
         # What f32 has proven stays. Even where f64 leaves it open, it comes closer to a double root than f32 could.
         proven = load(builder.buffer("status", U32, writable=True), lane).eq(HIT)
@@ -141,16 +156,25 @@ def exact_ray(ray: Ray) -> Ray:
     return Ray(tuple(v.convert(F64) for v in ray.origin), tuple(v.convert(F64) for v in ray.direction))
 
 
-def in_doubles(rough: Problem, clear: Value) -> Problem:
+def in_doubles(body: LoweredBody, rough: Problem, clear: Value) -> Problem:
     """The search that got stuck in f32, once more in f64 and in finer steps.
 
     Args:
-        rough: the search in f32, whose ``lowered`` is f in f64.
+        body: what is searched, in f64.
+        rough: the search of it in f32.
         clear: up to where it had proven that there is nothing.
     """
-    ray = exact_ray(rough.ray)
+    ray, around, tolerance = exact_ray(rough.ray), rough.tolerance, rough.tolerance.convert(F64)
+    if rough.asked is not None:
+        # What f32 can tell at the ray's far end says nothing of how closely a place is to be looked at.
+        around, tolerance = rough.asked.maximum(abs(clear) * RESOLUTION[F32]), rough.asked.convert(F64)
     # A little earlier than where the first look got stuck, to learn the sign that f has there.
-    earlier = (clear - rough.tolerance * 8.0).maximum(rough.t0)
-    start, end, tolerance = (v.convert(F64) for v in (earlier, rough.t1, rough.tolerance))
+    earlier = (clear - around * 8.0).maximum(rough.t0)
+    start, end = earlier.convert(F64), rough.t1.convert(F64)
+    # In f32 a ray from far away goes on beyond the bounds by what is rounded of them.
+    near, far = clip(body.builder, body.body.kind, ray.origin, ray.direction, body.body.prefix)
+    start, end = start.maximum(near), end.minimum(far)
     # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
-    return Problem(rough.lowered, ray, start, end, tolerance * FINER, tolerance * 4.0, rough.body, rough.strict)
+    finer, step = tolerance * FINER, tolerance * 4.0
+    asked = None if rough.asked is None else finer
+    return Problem(rough.lowered, ray, start, end, finer, step, rough.body, rough.strict, asked)

@@ -12,15 +12,15 @@ from collections.abc import Sequence
 from typing import Any
 
 from zeroset.arith import F32 as FORMAT32
-from zeroset.kernel import F32, F64, KernelBuilder, Value
+from zeroset.kernel import F32, F64, KernelBuilder, Type, Value
 from zeroset.scene.bounds import NAMES
 
-ROUNDING = 2.0**-21
-"""Covers the roundings of a stretch in f32, none of which is more than a few times 2^-24 of what goes in."""
+ROUNDING = {F32: 2.0**-21, F64: 2.0**-50}
+"""Covers the roundings of a stretch, none of which is more than a few times 2^-24, or 2^-53, of what goes in."""
 
 
-def _uniforms(builder: KernelBuilder, prefix: str) -> list[Value]:
-    return [builder.uniform(prefix + name, F32) for name in NAMES]
+def _uniforms(builder: KernelBuilder, prefix: str, type_: Type) -> list[Value]:
+    return [builder.uniform(prefix + name, F32).convert(type_) for name in NAMES]
 
 
 def clip(
@@ -28,11 +28,11 @@ def clip(
 ) -> tuple[Value, Value]:
     """The stretch [t0, t1] of the whole line inside the bounds; t1 <= t0 where it misses them.
 
-    ``prefix`` is before the names of the bounds' numbers, where a kernel has several.
+    It is computed in the rays' own type. ``prefix`` is before the names of the bounds' numbers, where a kernel has
+    several.
     """
-    if kind == "ball":
-        return _clip_ball(_uniforms(builder, prefix), origin, direction)
-    return _clip_box(_uniforms(builder, prefix), origin, direction)
+    bounds = _uniforms(builder, prefix, origin[0].type)
+    return _clip_ball(bounds, origin, direction) if kind == "ball" else _clip_box(bounds, origin, direction)
 
 
 def _dot(a: Sequence[Value], b: Sequence[Value]) -> Value:
@@ -40,6 +40,7 @@ def _dot(a: Sequence[Value], b: Sequence[Value]) -> Value:
 
 
 def _clip_ball(bounds: list[Value], origin: Sequence[Value], direction: Sequence[Value]) -> tuple[Value, Value]:
+    rounding = ROUNDING[bounds[0].type]
     # By the point of closest approach, whose distance does not cancel when the eye is far away.
     to_center = [c - o for c, o in zip(bounds[:3], origin, strict=True)]
     length = _dot(direction, direction)
@@ -47,16 +48,17 @@ def _clip_ball(bounds: list[Value], origin: Sequence[Value], direction: Sequence
     nearest = [c - middle * d for c, d in zip(to_center, direction, strict=True)]
     # Rounding moves the point and the middle no farther than this.
     blur = (
-        sum((abs(c) + abs(middle * d) for c, d in zip(to_center, direction, strict=True)), start=bounds[3]) * ROUNDING
+        sum((abs(c) + abs(middle * d) for c, d in zip(to_center, direction, strict=True)), start=bounds[3]) * rounding
     )
     radius = bounds[3] + blur
     inside = radius * radius - _dot(nearest, nearest)
-    along = _dot([abs(c) for c in to_center], [abs(d) for d in direction]) / length * ROUNDING
-    half = (inside.maximum(0.0) / length).sqrt() * (1.0 + ROUNDING) + along
+    along = _dot([abs(c) for c in to_center], [abs(d) for d in direction]) / length * rounding
+    half = (inside.maximum(0.0) / length).sqrt() * (1.0 + rounding) + along
     return middle - half, (inside > 0.0).select(middle + half, middle - half)
 
 
 def _clip_box(bounds: list[Value], origin: Sequence[Value], direction: Sequence[Value]) -> tuple[Value, Value]:
+    rounding = ROUNDING[bounds[0].type]
     low: Value | None = None
     high: Value | None = None
     for o, d, lo, hi in zip(origin, direction, bounds[:3], bounds[3:], strict=True):
@@ -67,13 +69,13 @@ def _clip_box(bounds: list[Value], origin: Sequence[Value], direction: Sequence[
         high = a.maximum(b) if high is None else high.minimum(a.maximum(b))
     assert low is not None
     assert high is not None
-    return low - abs(low) * ROUNDING, high + abs(high) * ROUNDING
+    return low - abs(low) * rounding, high + abs(high) * rounding
 
 
 def outside(builder: KernelBuilder, kind: str, system: Any, point: Sequence[Any], prefix: str = "") -> Value:
     """Whether a region, given as numbers of an enclosing system, certainly lies outside the bounds."""
     type_ = F32 if system.fmt is FORMAT32 else F64
-    bounds = [system.exact(v.convert(type_)) for v in _uniforms(builder, prefix)]
+    bounds = [system.exact(v) for v in _uniforms(builder, prefix, type_)]
     if kind == "ball":
         squares = [(p - c).sqr() for p, c in zip(point, bounds[:3], strict=True)]
         distance = squares[0] + squares[1] + squares[2] - bounds[3].sqr()

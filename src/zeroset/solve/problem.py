@@ -32,6 +32,7 @@ class Problem(NamedTuple):
         body: what is searched where that is more than one f = 0: isovalues, a solid; ``lowered`` is then its first f.
         strict: whether what f does next to a place where it jumps or has no value must be known, too. Who draws takes
             it for nothing if f has the same sign on either side.
+        asked: the tolerance that was asked for, in units of t; None where it is the one above.
     """
 
     lowered: Lowered
@@ -42,6 +43,7 @@ class Problem(NamedTuple):
     step: Value
     body: LoweredBody | None = None
     strict: bool = False
+    asked: Value | None = None
 
     @property
     def hazy(self) -> bool:
