@@ -46,8 +46,8 @@ class Layout(NamedTuple):
     def uniforms(self) -> dict[str, float]:
         """What the kernels need to know: tiles across, and the map from pixels to frame coordinates."""
         scale = 2.0 / max(self.width, self.height)
-        corner = {"u0": -0.5 * self.width * scale, "v0": 0.5 * self.height * scale}
-        return {"columns": self.columns, "width": self.width, "height": self.height, "pixel": scale} | corner
+        middle = {"middle_x": 0.5 * self.width, "middle_y": 0.5 * self.height}
+        return {"columns": self.columns, "width": self.width, "height": self.height, "pixel": scale} | middle
 
     def unscramble(self, buffer: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
         """A buffer in rows: (height, width)."""
@@ -70,8 +70,9 @@ def _tile_corner(builder: KernelBuilder, tile: Value) -> tuple[Value, Value]:
 
 def frame_coordinates(builder: KernelBuilder, column: Value, row: Value) -> tuple[Value, Value]:
     """u and v of a place given in pixels, v upwards."""
-    pixel = builder.uniform("pixel", F32)
-    return column.fma(pixel, builder.uniform("u0", F32)), (-row).fma(pixel, builder.uniform("v0", F32))
+    # From the middle, where both are exactly 0: the ray there is the camera's axis, on every device.
+    pixel, x, y = (builder.uniform(name, F32).convert(column.type) for name in ("pixel", "middle_x", "middle_y"))
+    return (column - x) * pixel, (y - row) * pixel
 
 
 def pixel_place(builder: KernelBuilder, lane: Value) -> tuple[Value, Value]:

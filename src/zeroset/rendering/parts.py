@@ -15,7 +15,7 @@ from zeroset.rendering.buffers import IN_PARTS, THIN_PIXEL, Ends
 from zeroset.rendering.cells import FINENESS, HALF, WIDTHS, part_offset, place_of, reached, shortest
 from zeroset.rendering.front import free_up_to
 from zeroset.rendering.gbuffer import write
-from zeroset.rendering.layout import pixel_place, tile_of
+from zeroset.rendering.layout import frame_coordinates, pixel_place, tile_of
 from zeroset.rendering.primary import camera_ray, exact_ray, t_range
 from zeroset.rendering.view import frame_patch
 from zeroset.solve.beam import Beam, find_anything
@@ -110,7 +110,7 @@ class _Pixel:
         self._subject = subject
         # In f64 from the start: quarters of parts are not much wider than coordinates are rounded by in f32.
         self._column, self._row = (place.convert(F64) + 0.5 for place in pixel_place(builder, lane))
-        self._side, self._left, self._top = (builder.uniform(name, F32).convert(F64) for name in ("pixel", "u0", "v0"))
+        self._side = builder.uniform("pixel", F32).convert(F64)
         start = load(builder.buffer("tile_start", F32), tile_of(lane))
         self._far = free_up_to(builder, lane, t_range(builder)[1]).convert(F64)
         self.near = start.maximum(reached(builder, place)).convert(F64)
@@ -123,8 +123,7 @@ class _Pixel:
         aside = constant(0.25 * WIDTHS[IN_PARTS], F64)
         across = now.whole.select(0.0 * aside, (now.quarter & 1).ne(0).select(aside, -aside))
         down = now.whole.select(0.0 * aside, (now.quarter >> 1).ne(0).select(aside, -aside))
-        u = (self._column + right + across).fma(self._side, self._left)
-        v = (-(self._row + below + down)).fma(self._side, self._top)
+        u, v = frame_coordinates(self._builder, self._column + right + across, self._row + below + down)
         share = now.whole.select(constant(1.0, F64), 0.5)
         patch = frame_patch(self._builder, self._subject, u, v, self._side * (WIDTHS[IN_PARTS] * HALF) * share)
         far = now.whole.select(self._far, self._far.minimum(now.t + self.window))

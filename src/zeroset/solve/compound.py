@@ -146,11 +146,14 @@ def _join(u: _Span, v: _Span, union: bool) -> _Span:
     counts = [(s.left <= right) & (s.right >= left) for s in (u, v)]
     marks = [count.select(s.mark, constant(0, U32)) for s, count in zip((u, v), counts, strict=True)]
     pick = Value.minimum if union else Value.maximum
+    before, after = pick(u.before, v.before), pick(u.after, v.after)
+    # Where there is no root the sign is one and the same, though it may be certain but from one end.
+    free = left > right
     return _Span(
         left,
         right,
-        pick(u.before, v.before),
-        pick(u.after, v.after),
+        (free & before.eq(0.0)).select(after, before),
+        (free & after.eq(0.0)).select(before, after),
         (u.defined | ~counts[0]) & (v.defined | ~counts[1]),
         u.width.maximum(v.width),
         marks[0] | marks[1],

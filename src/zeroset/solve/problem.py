@@ -13,7 +13,7 @@ from typing import NamedTuple
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import Format
-from zeroset.kernel import F32, Scalar, Type, Value, constant, lift
+from zeroset.kernel import F32, F64, Scalar, Type, Value, constant, lift
 from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Field, Lowered, Ray
 from zeroset.solve.shape import Body
@@ -64,6 +64,18 @@ class Problem(NamedTuple):
     def first_part_bit(self) -> int:
         """The bit of the body's first part."""
         return 1 if self.body is None else 1 << self.body.body.leaves[0][0].part
+
+    @property
+    def orientations(self) -> tuple[int, int]:
+        """The bits of a solid's parts that are in it as they are, and of those that are taken off it."""
+        leaves = () if self.body is None or self.levels else self.body.body.leaves
+        direct, taken = ((leaf.bits for leaf, sign in leaves if sign == wanted) for wanted in (1, -1))
+        return sum(direct), sum(taken)
+
+    @property
+    def shares_faces(self) -> bool:
+        """Whether faces that two parts of a solid share are passed over: in pictures, where f64 has looked closely."""
+        return self.type == F64 and not self.strict and all(self.orientations)
 
     @property
     def type(self) -> Type:

@@ -171,6 +171,22 @@ def _through_a_pole(problem: Problem, a: Value, b: Value, wanted: Value) -> Valu
     return turns < 0.0
 
 
+def _mark_of(mark: Value | None) -> Value:
+    """The parts of a look, or of a zone, of a solid."""
+    assert mark is not None
+    return mark
+
+
+def _on_a_shared_face(problem: Problem, before: Value, after: Value, mark: Value | None) -> Value:
+    """Whether what lies between two certain signs is but a face of a part that another part is taken off along.
+
+    Both parts have the face for theirs, so that it belongs to what is taken off, and nothing is left of it.
+    """
+    direct, taken = (constant(bits, U32) for bits in problem.orientations)
+    both = (_mark_of(mark) & direct).ne(0) & (_mark_of(mark) & taken).ne(0)
+    return both & before.ne(0.0) & before.eq(after)
+
+
 def _passed(zone: _Zone, passed: Value) -> _Zone:
     """The zone, or none where it is passed over."""
     return zone._replace(length=passed.select(constant(0, U32), zone.length))
@@ -209,10 +225,15 @@ def _turn(
     # A stretch with a certain sign behind the zone closes it: all of [a, b], or [a, left).
     closes = in_zone & ((excluded & ~skipped) | cut)
     changes = _differ(problem, zone.sign, seen.before)
+    shared = problem.shares_faces
     if problem.hazy:
         changes = changes | _through_a_pole(problem, zone.start, a, closes & ~zone.whole & ~changes)
+    if problem.hazy or shared:
         # f jumps or has no value in the zone, and the same sign on either side: no surface, and no zone any more.
-        zone, closes = _passed(zone, closes & ~zone.whole & ~changes), closes & (zone.whole | changes)
+        over = ~zone.whole & ~changes if problem.hazy else constant(False, BOOL)
+        if shared:
+            over = over | _on_a_shared_face(problem, zone.sign, seen.before, zone.mark)
+        zone, closes = _passed(zone, closes & over), closes & ~over
         in_zone = zone.length > 0
     joins = narrowest & ~closes
     if passing is not None:
@@ -229,18 +250,24 @@ def _turn(
     # Right of what joins, up to b, the sign may be known as well: then the zone closes at once.
     ends = joins & (seen.right < b)
     turns = _differ(problem, sign, seen.after)
+    passed = constant(False, BOOL)
     if problem.hazy:
         turns = turns | _through_a_pole(problem, start, seen.right, ends & ~whole & ~turns)
+        passed = ends & ~whole & ~turns
+    if shared:
+        own = in_zone.select(_mark_of(zone.mark), constant(0, U32)) | _mark_of(seen.mark)
+        passed = passed | (ends & _on_a_shared_face(problem, sign, seen.after, own))
     crossed = (closes & changes & zone.whole) | (ends & turns & whole)
-    full = joins & (zone.length >= (HAZE if problem.hazy else ZONE) - 1)
+    full = joins & (zone.length >= (HAZE if problem.hazy or shared else ZONE) - 1)
     if problem.hazy:
-        crossed, passed = crossed & (zone.length < ZONE), ends & ~whole & ~turns
+        crossed = crossed & (zone.length < ZONE)
+    if problem.hazy or shared:
         ends, full = ends & ~passed, full & ~passed
     hit = crossed | (proven & ~closes)
     unresolved = (closes | ends | full) & ~hit
 
     done = excluded
-    if problem.hazy:
+    if problem.hazy or shared:
         # What ends where it began would be looked at for ever.
         done = done | passed
     left_place = walk.leave(problem, place, done.select(b, seen.right), narrowest)
@@ -257,7 +284,7 @@ def _turn(
         joins.select(start, zone.start),
         joins.select(whole, zone.whole),
     )
-    if problem.hazy:
+    if problem.hazy or shared:
         after = _passed(after._replace(sign=passed.select(seen.after, after.sign)), passed)
     # What closes a zone lies behind it; the sign before it was learnt earlier.
     side = closes.select(zone.sign, proven.select(seen.before, sign))
