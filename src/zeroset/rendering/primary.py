@@ -30,6 +30,8 @@ from zeroset.solve.walk import Striding
 
 FINER = 2.0**-12
 """Tolerance of a second look as a part of the first one's."""
+ROOM = 2.0**-4
+"""Tolerances that a second look in a picture may go on for behind the bounds: ``HAZE`` of its own, and some more."""
 COARSE = 4.0
 """Tolerances that a find may be off by."""
 
@@ -173,7 +175,9 @@ def in_doubles(body: LoweredBody, rough: Problem, clear: Value) -> Problem:
     start, end = earlier.convert(F64), rough.t1.convert(F64)
     # In f32 a ray from far away goes on beyond the bounds by what is rounded of them.
     near, far = clip(body.builder, body.body.kind, ray.origin, ray.direction, body.body.prefix)
-    start, end = start.maximum(near), end.minimum(far)
+    # Where f jumps right at an end, a picture has to see behind it that there was no more than that.
+    room = tolerance * (0.0 if rough.strict else ROOM)
+    start, end = start.maximum(near - room), end.minimum(far + room)
     # Where f32 could not tell, roots lie closer together than its tolerance: f64 has room for a finer one.
     finer, step = tolerance * FINER, tolerance * 4.0
     asked = None if rough.asked is None else finer

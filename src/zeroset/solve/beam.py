@@ -63,7 +63,9 @@ class Patch(NamedTuple):
         system, box = IntervalSystem(self.system.fmt), [_around(p.interval()) for p in point]
 
         def near() -> tuple[Value]:
-            return (reduce(lambda a, b: a | b, [body.jumps(system, box) for body in bodies]),)
+            # Jumps of a part that has no say there are none; then intervals know that there is nothing.
+            free = reduce(lambda a, b: a & b, [body.excludes(system, box) for body in self.subject.bodies])
+            return (reduce(lambda a, b: a | b, [body.jumps(system, box) for body in bodies], free),)
 
         (found,) = if_(wanted, near, lambda: (False,))
         return found
@@ -214,9 +216,10 @@ def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Va
 def _flat_across(patch: Patch, point: Sequence[Any], t: Any, ordinary: Ordinary) -> Value:
     """Whether f may be flat across the patch at this t, for any f that may have a root there.
 
-    It is not where the two derivatives are as beside an ordinary silhouette. They are the same code for u and for v, so
-    it is there once and runs twice: a formula's derivative is most of the kernel, and the time to compile grows with
-    the text.
+    It is not where the two derivatives are as beside an ordinary silhouette: those along u and v, or those along the
+    diagonals, for at the corner of a solid whose faces have gradients of their own only one direction in between may
+    leave them all behind. They are the same code, so it is there once and runs up to four times: a formula's derivative
+    is most of the kernel, and the time to compile grows with the text.
     """
     fields, kind = list(patch.subject.fields()), patch.subject.type
 
@@ -231,7 +234,7 @@ def _flat_across(patch: Patch, point: Sequence[Any], t: Any, ordinary: Ordinary)
     else:
         open_ = [~(patch.clears(body, point) | body.free(leaf, patch.system, point)) for body, leaf, _ in fields]
     start = [value for flat in open_ for value in (flat, constant(0.0, kind), constant(STEEPEST, kind))]
-    ends = for_(2, narrow, *start)
+    ends = for_(4, narrow, *start)
     return reduce(lambda a, b: a | b, ends[::3])
 
 
@@ -252,23 +255,29 @@ class _Across(NamedTuple):
 def _narrowed(
     patch: Patch, lowered: Lowered, t: Any, symbol: Value, ordinary: Ordinary, state: _Across
 ) -> tuple[Value, Value, Value]:
-    """What is known once the derivative of f along a symbol of the patch, 0 or 1, has been looked at as well."""
-    dual = DualSystem(patch.system, 1)
+    """What is known once the derivative of f along u, v, u + v or u - v, by number, has been looked at as well."""
+    dual, second, diagonal = DualSystem(patch.system, 1), (symbol & 1).ne(0), symbol >= 2
+    none = constant(0.0, lowered.type)
 
     def across(base: Any) -> Any:
         # Affine in u and v: the form's own terms are its derivatives, scaled to the pixel.
         along_u, along_v = base.terms[:2]
         if isinstance(along_u, float) and isinstance(along_v, float):
             return Dual(dual, base, (None,))
-        return Dual(dual, base, (patch.system.exact(symbol.eq(0).select(along_u, along_v)),))
+        u, v = (lift(along, lowered.type) for along in (along_u, along_v))
+        straight = second.select(v, u)
+        return Dual(dual, base, (patch.system.exact(diagonal.select(u + second.select(-v, v), straight)),))
 
     moved = [across(o) + across(d) * dual.lift(t) for o, d in zip(patch.origin, patch.direction, strict=True)]
     slope = lowered.evaluate(dual, *moved).derivative(0).interval()
     # Where f is constant piece by piece, its derivative is a literal.
     low, high = (lift(end, lowered.type) for end in (slope.lo, slope.hi))
     least, most = low.maximum(-high).maximum(0.0), high.maximum(-low)
-    steady = (least > 0.0) & (least >= ordinary.steadiness * state.most)
-    before = (state.least > 0.0) & (state.least >= ordinary.steadiness * most)
-    beside = (most > state.most).select(ordinary.down, ordinary.across)
-    met = symbol.ne(0) & beside & ((least > 0.0) | (state.least > 0.0))
+    # Each pair of directions is looked at by itself.
+    other, largest = second.select(state.least, none), second.select(state.most, STEEPEST)
+    steady = (least > 0.0) & (least >= ordinary.steadiness * largest)
+    before = (other > 0.0) & (other >= ordinary.steadiness * most)
+    beside = (most > largest).select(ordinary.down, ordinary.across)
+    beside = diagonal.select(ordinary.across & ordinary.down, beside)
+    met = second & beside & ((least > 0.0) | (other > 0.0))
     return ~(steady | before | met), least, most

@@ -71,16 +71,20 @@ class LoweredBody:
 
     def jumps(self, system: Any, point: Point) -> Value:
         """Whether a formula of it may jump, or have no value, at any of these points, where that matters to a solid."""
+        if isinstance(self.body.tree, Leaf):
+            return self._undefined(self.body.tree, system, point)
         return self._jumps(self.body.tree, system, point)
+
+    def _undefined(self, leaf: Leaf, system: Any, point: Point) -> Value:
+        if leaf.field.continuous:
+            return constant(False, BOOL)
+        return ~lift(self.leaf(leaf).evaluate(system, *point).defined, BOOL)
 
     def _jumps(self, tree: Tree, system: Any, point: Point) -> Value:
         match tree:
             case Leaf():
-                if tree.field.continuous:
-                    return constant(False, BOOL)
-                jumps = ~lift(self.leaf(tree).evaluate(system, *point).defined, BOOL)
-                # What is on one side of 0 altogether is inside or outside, jump as it may; levels have many sides.
-                return jumps if tree.levels else jumps & self._sign(tree, system, point).eq(0.0)
+                # What is on one side of 0 altogether is inside or outside, jump as it may.
+                return self._undefined(tree, system, point) & self._sign(tree, system, point).eq(0.0)
             case Complement():
                 return self._jumps(tree.of, system, point)
             case Join():

@@ -149,3 +149,42 @@ def test_thin_parts_of_solids_and_isovalues_are_drawn() -> None:
         columns = np.flatnonzero(thin.any(axis=0))
         assert columns.max() - columns.min() <= 1
         assert not zs.render(thing, 65, camera=camera, device="cpu", thin=False).unresolved
+
+
+SHARED = {
+    "a box less a box along four faces": ("max(|x|, |y|, |z|) = 0.8", "max(|x|, |y|, |z - 0.4|) = 0.8"),
+    "the same along curved ones": ("max(x^2 + y^2, |z|) = 0.8", "max(x^2 + y^2, |z - 0.4|) = 0.8"),
+}
+
+
+@pytest.mark.parametrize("name", SHARED)
+def test_faces_that_are_taken_off_with_what_has_them_too(name: str) -> None:
+    """A part and what is taken off it share faces: nothing is left of these in a picture."""
+    whole, off = (zs.surface(formula) for formula in SHARED[name])
+    low = zs.surface("|z + 0.6| = 0.2")
+    camera = zs.Camera(eye=(2.2, -4, 1.8))
+    for thin in (False, True):
+        left, same = (
+            zs.render(solid.with_bounds(1.5), 200, camera, device="cpu", thin=thin).aov("status")
+            for solid in (whole - off, whole & low)
+        )
+        assert np.count_nonzero(same) > 5000
+        # A rim that was taken off may be left as a thin part, for nothing tells it from one.
+        assert np.count_nonzero(left != same) <= (100 if thin else 0)
+
+
+def test_nothing_is_left_of_what_is_taken_off_itself() -> None:
+    ball, again = zs.surface("x^2 + y^2 + z^2 = 1"), zs.surface("x^2 + y^2 + z^2 = r^2", params={"r": 1.0})
+    image = zs.render((ball - again).with_bounds(1.5), 100, device="cpu")
+    # Rays that graze it may meet one of the two by what is rounded.
+    assert image.hits == image.unresolved < 60
+    # For rays of a caller's own it stays what it is: nothing that could be proven.
+    hits = zs.cast((ball - again).with_bounds(1.5), [0.1, 0.2, -5], [0, 0, 1], device="cpu")
+    assert hits.status.tolist() == [zs.UNRESOLVED]
+
+
+def test_a_thin_solid_that_is_no_more_than_a_face_is_drawn() -> None:
+    """Two closed halves that touch have a plane in common, and that is all of them."""
+    plane = (zs.surface("x") & zs.surface("-x")).with_bounds(1.0)
+    image = zs.render(plane, 60, zs.Camera(eye=(4, 1, 1)), device="cpu")
+    assert image.hits > 300

@@ -111,3 +111,15 @@ def test_what_has_nothing_thin_needs_no_program_for_it(monkeypatch: pytest.Monke
     assert "parts" not in made
     zs.render(zs.surface("1.01x^2 + y^2 = 0", bounds=1.5), 64, device=device)
     assert "parts" in made
+
+
+@pytest.mark.parametrize(
+    "formula",
+    ["max(|x|, |y|, |z|) = 0.8", "|x| + |y| + |z| = 1", "max(x + y + z, x - y - z, y - x - z, z - x - y) = 0.6"],
+)
+@pytest.mark.parametrize("size", [160, 161, 240])
+def test_corners_of_polyhedra_are_no_thin_parts(formula: str, size: int) -> None:
+    """All faces of a corner fall off behind it, if only along a diagonal; a pixel that it hardly touches is no hit."""
+    image = zs.render(zs.surface(formula, bounds=2.0), size, device="cpu")
+    assert image.hits > 1000
+    assert image.unresolved <= 4
