@@ -94,6 +94,8 @@ def command(
         if name in moving:
             raise ParameterError(f"{name} is to move in two ways", hint="say --vary once for each name")
         moving[name] = how
+    for name in moving.keys() & {text.partition("=")[0].strip() for text in params}:
+        raise ParameterError(f"{name} has a value and is to move", hint=f"leave out -p {name}=... or --vary {name}=...")
     named, scene = _find(source, params, bounds, moving)
     if named is not None:
         moving = {**named.vary, **moving}

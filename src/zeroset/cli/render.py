@@ -25,8 +25,8 @@ from zeroset.errors import OutputError, ParameterError
 
 if TYPE_CHECKING:
     from zeroset.rendering.image import Image
-    from zeroset.scene.bounds import Bounds
     from zeroset.scene.scene import Scene
+    from zeroset.scene.several import Drawable
 
 
 @click.command("render", cls=FormulaCommand)
@@ -109,7 +109,7 @@ def command(
         )
     spent = time.perf_counter() - begin
     _save(image, scene, path, legend, save_scene, save_outputs)
-    _tell(image, path, spent, scene.surface.fitted)
+    _tell(image, path, spent, scene.surface)
 
 
 def _load_formats() -> None:
@@ -138,7 +138,7 @@ def _save(
             np.savez_compressed(file, **outputs)
 
 
-def _tell(image: Image, path: Path, spent: float, bounds: Bounds) -> None:
+def _tell(image: Image, path: Path, spent: float, shown: Drawable) -> None:
     width, height = image.size
     notes = f", {image.unresolved} of them unresolved" if image.unresolved else ""
     click.echo(f"{path}: {width}x{height}, {image.hits} pixels of surface{notes}, {spent * 1e3:.0f} ms")
@@ -147,8 +147,16 @@ def _tell(image: Image, path: Path, spent: float, bounds: Bounds) -> None:
         click.echo(f"colours: {image.coloring.quantity.title} from {low:.4g} to {high:.4g}")
     if not image.hits:
         proof = "certified: " if image.certified else ""
+        guess = " (a guess, for nothing was found up to 262144 from the origin)" if _guessed(shown) else ""
         click.echo(
-            f"{proof}no ray meets a zero of f inside {bounds}; the picture is empty. "
+            f"{proof}no ray meets a zero of f inside {shown.fitted}{guess}; the picture is empty. "
             "Try other --bounds, or another --eye.",
             err=True,
         )
+
+
+def _guessed(shown: Drawable) -> bool:
+    """Whether bounds were looked for, and nothing that they could hold."""
+    from zeroset.scene.fit import NOTHING
+
+    return shown.bounds is None and shown.fitted == NOTHING

@@ -90,12 +90,23 @@ def read_parameter(text: str) -> tuple[str, Any]:
     try:
         if not equals:
             raise ValueError
-        numbers = [float(part) for part in value.split(",")]
+        # An array of one number has a comma behind it.
+        numbers = [read_number(part) for part in value.removesuffix(",").split(",")]
     except ValueError:
         raise ParameterError(
             f"cannot read the parameter {text!r}", hint="write name=number, or name=1,2,3 for an array"
         ) from None
     return name.strip(), numbers if "," in value else numbers[0]
+
+
+def read_number(text: str) -> float:
+    """A number, such as ``1.5`` or ``2pi/3``; raises ``ValueError``."""
+    try:
+        return float(text)
+    except ValueError:
+        from zeroset.export.film.path import read_number
+
+        return read_number(text)
 
 
 def read_parameters(texts: Iterable[str]) -> dict[str, Any]:
@@ -221,6 +232,7 @@ class FormulaCommand(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take ``-x^2 + y`` for a formula and not for options."""
+        args = [arg[:2] + arg[3:] if re.match(r"-[a-z]=", arg) else arg for arg in args]
         letters = {name[1] for option in self.params for name in option.opts if re.fullmatch(r"-[a-z]", name)}
         if "--" not in args:
             formulas = [arg for arg in args if _negative_formula(arg, letters)]

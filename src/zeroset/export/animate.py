@@ -138,6 +138,7 @@ def animate(
         duration = named.duration if duration is None and frames is None else duration
     count, rate = timing(frames, duration, fps)
     target = read_target(path)
+    target.check_room(count)
     _check_style(target, rate, quality, dither)
     scene = source_scene(surface, moving, params)
     if shadows is not None:

@@ -116,7 +116,7 @@ Bounds = Ball | Box
 
 
 def parse_bounds(value: Any) -> Bounds | None:
-    """Bounds from what users write: a number, a Ball or Box, a mapping with their fields, two corners, or None."""
+    """Bounds from what users write: a number, a Ball or Box, a mapping with their fields, corners, or None."""
     if value is None or isinstance(value, (Ball, Box)):
         return value
     if isinstance(value, Mapping):
@@ -128,8 +128,13 @@ def parse_bounds(value: Any) -> Bounds | None:
         given = ", ".join(sorted(map(str, keys))) or "nothing"
         raise BoundsError(f"bounds have either min and max, or center and radius, not {given}")
     if (isinstance(value, Sequence) and not isinstance(value, str)) or (isinstance(value, np.ndarray) and value.ndim):
+        if len(value) == 6 and all(isinstance(v, (int, float)) for v in value):
+            return Box(tuple(value[:3]), tuple(value[3:]))
         if len(value) != 2:
-            raise BoundsError(f"bounds as a sequence are two corners, not {len(value)} items", hint="try bounds=3.0")
+            raise BoundsError(
+                f"bounds as a sequence are two corners, not {len(value)} items",
+                hints=("try bounds=((-1, -1, -1), (1, 1, 1))", "a ball around the origin is one number: bounds=3.0"),
+            )
         if all(isinstance(corner, (int, float)) for corner in value):
             raise BoundsError(
                 f"bounds as a sequence are two corners of three numbers each, not {value[0]!r} and {value[1]!r}",

@@ -208,6 +208,12 @@ class _Reader:
             raise self.fail(
                 "the camera has both a fov and a height", (*path, "height"), ("height alone is without perspective",)
             )
+        if "position" in values and values.get("direction", Light().direction) != Light().direction:
+            raise self.fail(
+                "the light has both a direction and a position",
+                (*path, "direction"),
+                ("a light at a place shines from there; one far away has a direction",),
+            )
         try:
             return cls(**values)
         except ZerosetError as error:
@@ -251,7 +257,7 @@ def dumps(scene: Shown) -> str:
     if scene.environment is not None:
         around = scene.environment
         data["environment"] = around.source if around.strength == 1.0 else dataclasses.asdict(around)
-    data["lights"] = [given(dataclasses.asdict(light)) for light in scene.lights]
+    data["lights"] = [_light_data(light) for light in scene.lights]
     if tables:
         # After all plain values, since tables end the top of a file.
         data["surfaces"] = tables
@@ -288,3 +294,11 @@ def save(scene: Shown, path: str | os.PathLike[str]) -> Path:
     with replacing(target) as file:
         file.write(data)
     return target
+
+
+def _light_data(light: Light) -> dict[str, Any]:
+    """A light as a scene file has it: one at a place has no direction."""
+    data = given(dataclasses.asdict(light))
+    if light.position is not None:
+        del data["direction"]
+    return data

@@ -26,6 +26,8 @@ SEARCHED = 64.0, 64.0**2, 64.0**3
 """Half the sides of the cubes that are searched, each if there is nothing in the one before."""
 UNBOUNDED = 6.0
 """Radius that a surface gets which leaves the first cube; one that leaves a larger one gets more in proportion."""
+NOTHING = Ball(1.0)
+"""Bounds of what is nowhere in the largest cube."""
 BOXES = 2500
 """Boxes that a level may keep; beyond, the hull is good enough."""
 EVALUATIONS = 1_000_000
@@ -53,7 +55,7 @@ def fit_bounds(thing: Surface | Solid) -> Ball:
         if len(low):
             break
     else:
-        return Ball(1.0)
+        return NOTHING
     if _loose(thing, low, high):
         closer = _kept(thing, FORMS, half, LEVELS + 6 * i)
         low, high = closer if len(closer[0]) else (low, high)

@@ -7,6 +7,7 @@ copies, and a copy that differs only in numbers runs on the same compiled kernel
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -258,7 +259,16 @@ def surface(
     scalars = {k: v for k, v in values.items() if not _is_array(v)}
     arrays = {k: v for k, v in values.items() if _is_array(v)}
     expr, defaults = _expression(source, scalars, arrays)
+    if isinstance(source, str):
+        scalars, arrays = (_still_there(given, expr, source) for given in (scalars, arrays))
     return Surface(ExprField(expr), {**defaults, **scalars}, arrays, limits, camera, name)
+
+
+def _still_there(given: dict[str, Any], expr: Expr, text: str) -> dict[str, Any]:
+    """Values without those of names that stand in the text and have gone as it was simplified: ``0*r + x``."""
+    kept = expr.parameters | expr.arrays | {TIME}
+    gone = [name for name in given if name not in kept and re.search(rf"(?<![A-Za-z_]){re.escape(name)}(?!\w)", text)]
+    return {name: value for name, value in given.items() if name not in gone}
 
 
 def _made_of(values: Mapping[str, Any]) -> Surface:

@@ -65,6 +65,7 @@ def test_a_camera_path(zeroset: Run, tmp_path: Path) -> None:
         (["sphere"], "nothing moves(.|\n)*--orbit 360(.|\n)*--vary r=0:1"),
         (["sphere", "--vary", "q=1:2"], "no parameter 'q'(.|\n)*it has r"),
         (["sphere", "--vary", "r"], "write --vary a=1:5"),
+        (["sphere", "-p", "r=1", "--vary", "r=1:2"], "r has a value and is to move"),
         (["sphere", "--vary", "r=1:2:sinus"], "did you mean sine"),
         (["blinn-blobby", "--vary", "cx=1:2"], "cx is an array"),
         (["x^2 + y^2 = q", "--orbit", "90"], "unknown name q"),

@@ -133,6 +133,7 @@ BAD = [
     ([BALL, "-t", "fine"], ["fine"]),
     ([BALL, "-d", "cpuu"], ["no device 'cpuu'", "did you mean cpu"]),
     ([BALL, "-p", "a=1"], ["no parameter 'a'"]),
+    (["x = a", "-p", "a=pie"], ["cannot read the parameter"]),
     ([BALL, "-p", "a"], ["cannot read the parameter", "name=number"]),
     ([BALL, "-p", "a=1", "-p", "a=2"], ["the parameter a is given twice"]),
     ([BALL, "--ior", "1.3"], ["none is transparent", "--opacity"]),
@@ -227,6 +228,23 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
     assert sunny.material.back == (1.0, 0.0, 0.0)
     assert [(light.direction, light.headlight) for light in sunny.lights] == [((1, -1, 2), False), ((-1, 0, 0), False)]
     assert zs.load(tmp_path / "sky.toml").environment is not None
+
+
+def test_numbers_as_people_write_them(zeroset: Run, tmp_path: Path) -> None:
+    more = ("-s", "16", "-o", "a.png", "--save-scene", "a.toml")
+    ran = zeroset("render", "x^2 + y^2 + z^2 = a", "-p", "a=2pi/3", "-b=-2,-2,-2,2,2,2", *more)
+    assert (ran.status, ran.err) == (0, "")
+    scene = zs.load(tmp_path / "a.toml")
+    assert scene.surface.params["a"] == 2 * np.pi / 3
+    assert scene.surface.bounds == zs.Box((-2, -2, -2), (2, 2, 2))
+    assert zeroset("render", "x^2 + y^2 + sum(i, r[i] z^2) = 1", "-p", "r=1,", "-b", "2", *more).status == 0
+    assert zs.load(tmp_path / "a.toml").surface.arrays["r"].tolist() == [1.0]
+
+
+def test_where_nothing_is_found_the_bounds_are_a_guess(zeroset: Run) -> None:
+    ran = zeroset("render", "x^2 + y^2 + z^2 = 1e20", "-s", "16", "-o", "a.png")
+    assert "a guess, for nothing was found up to 262144" in ran.err
+    assert "a guess" not in zeroset("render", BALL, "-b", "0.1", "-s", "16", "-o", "a.png").err
 
 
 def test_colours_and_their_legend(zeroset: Run, tmp_path: Path) -> None:

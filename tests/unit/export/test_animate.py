@@ -148,6 +148,14 @@ def test_frames_of_another_animation_are_in_the_way(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == ["a.gif"]
 
 
+def test_pictures_of_a_longer_animation_are_in_the_way(tmp_path: Path) -> None:
+    ball(tmp_path / "a-##.png", frames=5)
+    with pytest.raises(zs.errors.OutputError, match="the pictures of a longer animation"):
+        ball(tmp_path / "a-##.png", frames=3)
+    assert len(os.listdir(tmp_path)) == 5
+    assert ball(tmp_path / "a-##.png", frames=6).drawn == 6
+
+
 def test_frames_with_other_surroundings_are_another_animation(tmp_path: Path) -> None:
     around = tmp_path / "around.png"
     scene = zs.Scene(BALL, environment=str(around))

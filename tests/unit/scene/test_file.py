@@ -154,6 +154,12 @@ LIGHTS = f"{F}\n[[lights]]\ndirection = [0, 0, 1]\n\n[[lights]]\n"
         (F + '\n[environment]\nsource = "sky"\nstrength = -1', 4, "strength must be a number from 0", ""),
         (F + '\n[environment]\nsource = "sky"\nstrenght = 1', 4, "no 'strenght'", "did you mean strength"),
         (F + "\n[environment]\nsource = true", 3, "environment.source must be text, not true", ""),
+        (
+            F + "\n[[lights]]\nposition = [1, 2, 3]\ndirection = [1, 0, 0]",
+            4,
+            "both a direction and a position",
+            "far away",
+        ),
         # no TOML
         (F + "\n\n" + F, 3, "Cannot overwrite a value", "each key and each table may stand once"),
         (F + "\n[camera]\n[camera]", 3, "Cannot declare", "may stand once"),
@@ -285,3 +291,12 @@ def test_files_that_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="no folder"):
         zs.save(zs.surface("x"), tmp_path / "none" / "scene.toml")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_light_at_a_place_has_no_direction() -> None:
+    lamp = zs.Scene(zs.surface("x", bounds=1.0), lights=(zs.Light(position=(1, 2, 3), headlight=False),))
+    assert "direction" not in dumps(lamp)
+    assert loads(dumps(lamp)) == lamp
+    # Scenes that were saved before have the direction that every light has.
+    old = dumps(lamp).replace("position", "direction = [-0.45, 0.7, 0.75]\nposition", 1)
+    assert loads(old) == lamp

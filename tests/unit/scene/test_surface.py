@@ -155,3 +155,11 @@ def test_surfaces_solids_and_scenes_can_be_sent_and_copied(again: Callable[[Any]
     sent = again(turned)
     with pytest.raises(TypeError):
         sent.params["a"] = 1.0
+
+
+def test_names_that_simplifying_takes_away_may_have_values() -> None:
+    """A formula that a program has put together: c r with c = 0."""
+    made = zs.surface("0*r + z + 0*sum(i, c[i] x)", {"r": 1, "c": [1, 2]})
+    assert (dict(made.params), dict(made.arrays)) == ({}, {})
+    with pytest.raises(ParameterError, match="no parameter 'a'"):
+        zs.surface("max(x, y)", {"a": 1})

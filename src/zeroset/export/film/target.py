@@ -38,6 +38,15 @@ class Target:
         plain = re.sub(r"[-_. ]*#+", "", self.path.stem) or "out"
         return self.path.parent / f"{plain}{'' if self.path.is_dir() else self.path.suffix}.frames"
 
+    def check_room(self, count: int) -> None:
+        """Raise ``OutputError`` where pictures of a longer animation would follow on those of this one."""
+        if not self.movie and self.still(count, count).exists():
+            raise OutputError(
+                f"{os.fspath(self.still(count, count))!r} is there: the pictures of a longer animation would be left "
+                f"behind the {count} of this one",
+                hint="remove them, or give the pictures another name",
+            )
+
     def still(self, index: int, count: int) -> Path:
         """The file of a single frame, counted from 1.
 
