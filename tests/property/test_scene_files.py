@@ -40,7 +40,14 @@ CAMERAS = st.one_of(
     .filter(lambda made: max(abs(a - b) for a, b in zip(made[0], made[1], strict=True)) > 1e-6)
     .map(lambda made: zs.Camera(made[0], made[1], made[2], **made[3])),
 )
-LIGHTS = st.lists(st.builds(zs.Light, UP, COLORS, st.booleans(), st.one_of(st.none(), PLACES)), max_size=32)
+FAR = st.builds(zs.Light, UP, COLORS, st.booleans())
+NEAR = st.builds(
+    lambda color, headlight, place: zs.Light(color=color, headlight=headlight, position=place),
+    COLORS,
+    st.booleans(),
+    PLACES,
+)
+LIGHTS = st.lists(st.one_of(FAR, NEAR), max_size=32)
 MATERIALS = st.builds(
     zs.Material,
     front=COLORS,

@@ -208,12 +208,6 @@ class _Reader:
             raise self.fail(
                 "the camera has both a fov and a height", (*path, "height"), ("height alone is without perspective",)
             )
-        if "position" in values and values.get("direction", Light().direction) != Light().direction:
-            raise self.fail(
-                "the light has both a direction and a position",
-                (*path, "direction"),
-                ("a light at a place shines from there; one far away has a direction",),
-            )
         try:
             return cls(**values)
         except ZerosetError as error:

@@ -33,6 +33,10 @@ def color(values: Iterable[float], what: str) -> Color:
     return made
 
 
+DIRECTION = (-0.45, 0.7, 0.75)
+"""Towards the light that is meant where nobody says where it is."""
+
+
 @dataclass(frozen=True, slots=True)
 class Light:
     """A light, far away or at a place.
@@ -44,7 +48,7 @@ class Light:
         position: where the light is; None for one far away.
     """
 
-    direction: Vector = (-0.45, 0.7, 0.75)
+    direction: Vector = DIRECTION
     color: Color = (1.0, 1.0, 1.0)
     headlight: bool = True
     position: Vector | None = None
@@ -53,6 +57,11 @@ class Light:
         object.__setattr__(self, "direction", vector(self.direction, "a light's direction", ParameterError))
         if self.position is not None:
             object.__setattr__(self, "position", vector(self.position, "a light's position", ParameterError))
+            if self.direction != DIRECTION:
+                raise ParameterError(
+                    "a light has either a direction or a position, not both",
+                    hint="a light at a place shines from there; one far away has a direction",
+                )
         object.__setattr__(self, "color", color(self.color, "a light's colour"))
         if self.headlight not in (True, False):
             raise ParameterError(f"a light's headlight must be True or False, not {self.headlight!r}")

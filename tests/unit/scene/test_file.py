@@ -156,9 +156,9 @@ LIGHTS = f"{F}\n[[lights]]\ndirection = [0, 0, 1]\n\n[[lights]]\n"
         (F + "\n[environment]\nsource = true", 3, "environment.source must be text, not true", ""),
         (
             F + "\n[[lights]]\nposition = [1, 2, 3]\ndirection = [1, 0, 0]",
-            4,
-            "both a direction and a position",
-            "far away",
+            2,
+            "either a direction or a position",
+            "from there",
         ),
         # no TOML
         (F + "\n\n" + F, 3, "Cannot overwrite a value", "each key and each table may stand once"),

@@ -63,7 +63,8 @@ def _key(imgui: Any, state: State) -> State:
     turned, azimuth = slider(imgui, "around", azimuth, (-180.0, 180.0), "%.0f degrees")
     lifted, height = slider(imgui, "height", height, (-90.0, 90.0), "%.0f degrees")
     if turned or lifted:
-        key = replace(key, direction=direction(azimuth, height))
+        # A light at a place becomes one far away.
+        key = replace(key, direction=direction(azimuth, height), position=None)
     lights = (key, *others)
     return state if lights == state.lights else replace(state, lights=lights)
 
