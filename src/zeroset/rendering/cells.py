@@ -150,8 +150,9 @@ class Cells:
 
     def ordinary(self, far: Value) -> Ordinary:
         """What f's derivatives across a lane's patch, up to ``far``, are like beside an ordinary silhouette."""
-        across, down = if_(self.level >= IN_PIXELS, lambda: self._hits_beside(far), lambda: (False, False))
-        return Ordinary(self._number(STEADINESS), across, down, self.level.eq(IN_PARTS))
+        closely = self.level >= IN_PIXELS
+        across, down = if_(closely, lambda: self._hits_beside(far), lambda: (False, False))
+        return Ordinary(self._number(STEADINESS), across, down, self.level.eq(IN_PARTS), closely)
 
     def _hits_beside(self, far: Value) -> tuple[Value, ...]:
         """Whether a ray left or right of a lane's pixel meets something nearer than that does; or above or below."""

@@ -126,12 +126,14 @@ class Ordinary(NamedTuple):
         across: whether a ray beside the patch, in the direction of u, has met something: then it may be smaller.
         down: the same in the direction of v.
         last: whether nobody looks closer: then what is near a place where f jumps or has no value is left to the rays.
+        closely: whether directions in between are asked for, too, where these do not tell.
     """
 
     steadiness: Value
     across: Value
     down: Value
     last: Value
+    closely: Value
 
 
 class Beam(NamedTuple):
@@ -185,7 +187,8 @@ def trace_beam(
         # Of thin parts that says nothing either: the rays, in f64, are enough.
         excluded = excluded | (near & patch.endless(point))
         asked = ~excluded & near
-        (flat,) = if_(asked, lambda: (_flat_across(patch, point, t, ordinary),), lambda: (True,))
+        closely = ordinary.closely & (h <= finest)
+        (flat,) = if_(asked, lambda: (_flat_across(patch, point, t, ordinary, closely),), lambda: (True,))
         passed = excluded | ~flat
         end = ~passed & (h <= finest)
         return passed.select(b, a), passed.select(h * 2.0, (h * 0.5).maximum(finest)), end, count + 1
@@ -213,13 +216,13 @@ def find_anything(patch: Patch, near: Value, far: Value, step: Value, finest: Va
     return Beam(found, a, h, a + h * 0.5, count)
 
 
-def _flat_across(patch: Patch, point: Sequence[Any], t: Any, ordinary: Ordinary) -> Value:
+def _flat_across(patch: Patch, point: Sequence[Any], t: Any, ordinary: Ordinary, closely: Value) -> Value:
     """Whether f may be flat across the patch at this t, for any f that may have a root there.
 
-    It is not where the two derivatives are as beside an ordinary silhouette: those along u and v, or those along the
-    diagonals, for at the corner of a solid whose faces have gradients of their own only one direction in between may
-    leave them all behind. They are the same code, so it is there once and runs up to four times: a formula's derivative
-    is most of the kernel, and the time to compile grows with the text.
+    It is not where the two derivatives are as beside an ordinary silhouette: those along u and v, or, in single
+    pixels, those along the diagonals, for at the corner of a solid whose faces have gradients of their own
+    only one direction in between may leave them all behind. They are the same code, so it is there once and runs up to
+    four times: a formula's derivative is most of the kernel, and the time to compile grows with the text.
     """
     fields, kind = list(patch.subject.fields()), patch.subject.type
 
@@ -234,7 +237,7 @@ def _flat_across(patch: Patch, point: Sequence[Any], t: Any, ordinary: Ordinary)
     else:
         open_ = [~(patch.clears(body, point) | body.free(leaf, patch.system, point)) for body, leaf, _ in fields]
     start = [value for flat in open_ for value in (flat, constant(0.0, kind), constant(STEEPEST, kind))]
-    ends = for_(4, narrow, *start)
+    ends = for_(closely.select(constant(4, U32), 2), narrow, *start)
     return reduce(lambda a, b: a | b, ends[::3])
 
 
