@@ -14,11 +14,10 @@ if TYPE_CHECKING:
     from zeroset.scene.light import Color, Light
     from zeroset.scene.scene import Scene
 
-COLOR = "COLOR"
 OPTIONS = (
-    click.option("--front", metavar=COLOR, help="Colour of the side where f > 0: a name, or #rrggbb."),
-    click.option("--back", metavar=COLOR, help="Colour of the side where f < 0."),
-    click.option("--background", metavar=COLOR, help="Colour where nothing is met."),
+    click.option("--front", metavar="COLOR", help="Colour of the side where f > 0: a name, or #rrggbb."),
+    click.option("--back", metavar="COLOR", help="Colour of the side where f < 0."),
+    click.option("--background", metavar="COLOR", help="Colour where nothing is met."),
     click.option(
         "--light",
         metavar="X,Y,Z",

@@ -147,16 +147,17 @@ def _tell(image: Image, path: Path, spent: float, shown: Drawable) -> None:
         click.echo(f"colours: {image.coloring.quantity.title} from {low:.4g} to {high:.4g}")
     if not image.hits:
         proof = "certified: " if image.certified else ""
-        guess = " (a guess, for nothing was found up to 262144 from the origin)" if _guessed(shown) else ""
         click.echo(
-            f"{proof}no ray meets a zero of f inside {shown.fitted}{guess}; the picture is empty. "
+            f"{proof}no ray meets a zero of f inside {shown.fitted}{_guess(shown)}; the picture is empty. "
             "Try other --bounds, or another --eye.",
             err=True,
         )
 
 
-def _guessed(shown: Drawable) -> bool:
-    """Whether bounds were looked for, and nothing that they could hold."""
-    from zeroset.scene.fit import NOTHING
+def _guess(shown: Drawable) -> str:
+    """What is to be said of bounds that were looked for where there was nothing that they could hold."""
+    from zeroset.scene.fit import NOTHING, SEARCHED
 
-    return shown.bounds is None and shown.fitted == NOTHING
+    if shown.bounds is not None or shown.fitted != NOTHING:
+        return ""
+    return f" (a guess, for nothing was found up to {SEARCHED[-1]:.0f} from the origin)"

@@ -169,7 +169,7 @@ def in_doubles(body: LoweredBody, rough: Problem, clear: Value) -> Problem:
     ray, around, tolerance = exact_ray(rough.ray), rough.tolerance, rough.tolerance.convert(F64)
     if rough.asked is not None:
         # What f32 can tell at the ray's far end says nothing of how closely a place is to be looked at.
-        around, tolerance = rough.asked.maximum(abs(clear) * RESOLUTION[F32]), rough.asked.convert(F64)
+        around, tolerance = tolerance_at(body.builder, rough.ray, clear), rough.asked.convert(F64)
     # A little earlier than where the first look got stuck, to learn the sign that f has there.
     earlier = (clear - around * 8.0).maximum(rough.t0)
     start, end = earlier.convert(F64), rough.t1.convert(F64)

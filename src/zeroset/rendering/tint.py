@@ -64,7 +64,7 @@ class Tint(NamedTuple):
     def uniforms(self, surface: Surface, method: Method) -> dict[str, float]:
         """The parameters that the quantity takes, in its scalar type."""
         # A formula may have w where f has none.
-        numbers = {TIME: (0.0, 0.0), **surface.settled[1], OFFSET: (method.offset, method.offset)}
+        numbers = {TIME: (0.0, 0.0), **surface.settled.numbers, OFFSET: (method.offset, method.offset)}
         return scalar_uniforms(numbers, self.type)
 
 

@@ -44,7 +44,7 @@ def parameter_uniforms(surface: Surface, method: Method, type_: Type = F32, pref
     ``prefix`` is before the names of the surface's own numbers, where a kernel has several surfaces.
     """
     numbers = {OFFSET: method.offset} | {isovalue_name(i): value for i, value in enumerate(surface.isovalues)}
-    values = {**surface.settled[1], **{name: (value, value) for name, value in numbers.items()}}
+    values = {**surface.settled.numbers, **{name: (value, value) for name, value in numbers.items()}}
     named = method.uniforms() | scalar_uniforms(values, type_, prefix)
     return named | {length_name(prefix + name): len(surface.arrays[name]) for name in surface.field.arrays}
 

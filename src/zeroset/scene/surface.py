@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -34,6 +34,18 @@ if TYPE_CHECKING:
 
 Enclosure = tuple[float, float]
 """Two doubles with a number between them."""
+
+
+class Calculated(NamedTuple):
+    """A surface as kernels calculate it.
+
+    Attributes:
+        field: f, of which parts that parameters alone decide are parameters themselves.
+        numbers: between which doubles each of its parameters lies.
+    """
+
+    field: ExprField
+    numbers: Mapping[str, Enclosure]
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,17 +194,17 @@ class Surface:
         return fit_bounds(self)
 
     @cached_property
-    def settled(self) -> tuple[ExprField, Mapping[str, Enclosure]]:
-        """f as kernels calculate it, and between which doubles each of its parameters lies."""
+    def settled(self) -> Calculated:
+        """f and the numbers in it as kernels are given them."""
         given = {name: (value, value) for name, value in self.params.items()}
         try:
             found = self.field.settled.values(self.params)
         except FormulaError:
-            return self.field, given
+            return Calculated(self.field, given)
         if any(max(-low, high) > LARGEST for low, high in found.values()):
             # Kernels know what to make of numbers that pass the largest one if they come to them by themselves.
-            return self.field, given
-        return self.field.remaining, given | found
+            return Calculated(self.field, given)
+        return Calculated(self.field.remaining, given | found)
 
     def check_work(self) -> None:
         """Raise ``FormulaLimitError`` for a formula that no compiler digests while somebody waits."""
