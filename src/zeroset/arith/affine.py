@@ -146,6 +146,9 @@ class AffineSystem(FormSystem[Affine]):
     def constant(self, lo: float, hi: float) -> Affine:
         """The middle of [lo, hi], rounded, with what that leaves as error."""
         middle = self._fmt.round(0.5 * lo + 0.5 * hi)
+        if max(-lo, hi) > 0.5 * self._fmt.big:
+            endless = self.form(middle, (0.0,) * self.width, 2.0 * self._fmt.big)
+            return self._with_bounds(endless, self.intervals.constant(lo, hi)).watched()
         widest = max(sub(self._fmt.up(hi), middle), sub(middle, self._fmt.down(lo)))
         error = 0.0 if lo == hi == middle else self._fmt.up(widest)
         return self._with_bounds(self.form(middle, (0.0,) * self.width, error), self.intervals.constant(lo, hi))

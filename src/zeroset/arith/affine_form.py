@@ -133,6 +133,12 @@ class Form(Number):
         error = select(mask, add(absolute(self.centre), self.fmt.big), self.error, like=self.centre)
         return self.make(self.centre, self.terms, error, self.budget, bounds=self.bounds)
 
+    def watched(self) -> Self:
+        """This form, of which sums and products see to it that none claims more than it may."""
+        bounds = None if self.bounds is None else self.bounds.watched()
+        form = self.make(self.centre, self.terms, self.error, self.budget, self.flags.growing(), bounds)
+        return form.knowing(self.nonnegative)
+
     def reach(self) -> Scalar:
         """How far the number may be from its centre: the radius with the roundings of its arithmetic repaid."""
         return repaid(self.fmt, self.radius(), self.budget.depth + len(self.terms))

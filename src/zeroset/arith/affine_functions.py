@@ -56,7 +56,7 @@ def _reciprocal(a: F) -> tuple[F, Mask]:
 def divide(a: F, b: F) -> F:
     """a / b; the whole line where ``b`` may be 0."""
     divisor = b.interval()
-    known = b.is_constant and is_literal(divisor.lo, divisor.hi)
+    known = b.is_constant and is_literal(divisor.lo, divisor.hi) and not b.flags.large
     if known and (divisor.lo > b.fmt.tiny or divisor.hi < -b.fmt.tiny):
         return a.mul(a.system.constant(*literal_reciprocal(divisor)))
     inverse, regular = _reciprocal(b)

@@ -49,6 +49,10 @@ class Dual(DualRules[N], Generic[N]):
         """A number of the same system."""
         return Dual(self._system, value, gradient)
 
+    def watched(self) -> Dual[N]:
+        """The value watched, and with it every derivative that it goes into."""
+        return self.make(self.value.watched(), self.gradient)
+
     def lt(self, other: Dual[N], /) -> DualCondition[N]:
         """The comparison of the values."""
         return DualCondition(self.value.lt(other.value))

@@ -2,8 +2,9 @@
 
 After Knoll et al. 2009, section 3.2 (doi:10.1111/j.1467-8659.2008.01189.x), with tight squares and even powers,
 division by intervals that hold 0, and explicit outward rounding (``rounding``). The contract: an interval holds f at
-every point of the box where f is defined and no intermediate value exceeds ``fmt.big`` (5e33 in f32). Bounds are
-always finite; one at or beyond +-big claims nothing on its side.
+every point of the box where f is defined and no intermediate value exceeds ``fmt.big`` (5e33 in f32), or where what may
+do so comes of functions that watch over it or of numbers that are ``watched``. Bounds are always finite; one at or
+beyond +-big claims nothing on its side.
 """
 
 from __future__ import annotations
@@ -133,7 +134,9 @@ class IntervalSystem(System[Interval]):
 
     def constant(self, lo: float, hi: float) -> Interval:
         """The tightest interval of the format around [lo, hi]."""
-        return Interval(self, self._fmt.down(lo), self._fmt.up(hi))
+        # Beyond the middle of the range rounding may tell whether it claims anything.
+        number = Interval(self, self._fmt.down(lo), self._fmt.up(hi))
+        return number.watched() if max(-lo, hi) > 0.5 * self._fmt.big else number
 
     def bounds(self, lo: Scalar, hi: Scalar) -> Interval:
         """The interval between two run-time scalars, taken as exact."""

@@ -111,6 +111,9 @@ def _fold(function: Callable[[Scalar, Scalar], Scalar], values: list[Scalar]) ->
 
 
 def _times_constant(a: B, constant: B) -> B:
+    if constant.flags.large:
+        # It may be beyond what the format holds: then its literal bounds are not its value.
+        return _product(a, constant)
     lo, hi, fmt = constant.lo, constant.hi, a.fmt
     flags = a.flags.meet(constant.flags)
     nonnegative = a.nonnegative and lo >= 0
@@ -155,7 +158,7 @@ def _scaled_exactly(a: B, factor: float, flags: Flags, nonnegative: bool) -> B:
 def divide(a: B, b: B) -> B:
     """a / b: the whole line, or half of it, where b may be 0."""
     fmt = a.fmt
-    if is_literal(b.lo, b.hi) and (b.lo > fmt.tiny or b.hi < -fmt.tiny):
+    if is_literal(b.lo, b.hi) and not b.flags.large and (b.lo > fmt.tiny or b.hi < -fmt.tiny):
         return mul(a, a.make(*literal_reciprocal(b), b.flags))
     inverse, pole = _reciprocal(b)
     if a.is_point(1.0):

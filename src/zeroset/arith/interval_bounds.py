@@ -72,6 +72,10 @@ class Bounds(Number):
         lo = self.lo if below is False else select(below, -big, self.lo, like)
         return self.make(lo, select(above, big, self.hi, like), nonnegative=self.nonnegative)
 
+    def watched(self) -> Self:
+        """These bounds, of which sums and products see to it that none claims more than it may."""
+        return self.make(self.lo, self.hi, self.flags.growing(), self.nonnegative)
+
     def is_point(self, value: float) -> bool:
         """Whether this is literally the number ``value``, everywhere defined."""
         return is_literal(self.lo, self.hi) and self.lo == self.hi == value and self.flags.is_total

@@ -160,6 +160,13 @@ class Number(ABC):
     def le(self, other: Self, /) -> Condition[Self]:
         """Whether ``self <= other``."""
 
+    def watched(self) -> Self:
+        """The same number, of which it is not known that all that is made of it stays below ``fmt.big``.
+
+        Enclosing systems then look at each step whether something has passed it; others claim nothing anyway.
+        """
+        return self
+
     def literal(self, value: float) -> Self:
         """A constant beside this number; ``value`` is meant exactly."""
         return self.system.constant(value, value)

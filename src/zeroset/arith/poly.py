@@ -83,6 +83,10 @@ class Poly(Number, Generic[N]):
         known = self.coefficients[power] if power <= self.degree else None
         return self._system.inner.constant(0.0, 0.0) if known is None else known
 
+    def watched(self) -> Poly[N]:
+        """All coefficients watched."""
+        return Poly(self._system, tuple(None if c is None else c.watched() for c in self.coefficients))
+
     def _with(self, coefficients: list[N | None]) -> Poly[N]:
         return Poly(self._system, tuple(coefficients))
 

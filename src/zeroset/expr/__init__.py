@@ -14,6 +14,7 @@ from zeroset.expr.continuity import continuous
 from zeroset.expr.dag import PI, Expr, constant, node, postorder, rational
 from zeroset.expr.evaluate import Env, evaluate
 from zeroset.expr.fraction import fraction
+from zeroset.expr.magnitude import Magnitude
 from zeroset.expr.names import VARIABLES, variable
 from zeroset.expr.ops import FUNCTIONS, OPS, Operator
 from zeroset.expr.parse import parse
@@ -30,6 +31,7 @@ __all__ = [
     "VARIABLES",
     "Env",
     "Expr",
+    "Magnitude",
     "Operator",
     "PolynomialView",
     "Settled",

@@ -14,11 +14,13 @@ from zeroset.errors import ArrayShapeError, ParameterError
 from zeroset.kernel.types import F32
 from zeroset.rendering.buffers import PART
 from zeroset.rendering.drawn import as_drawn
+from zeroset.rendering.materials import opaque_parts
 from zeroset.rendering.render import world_tolerance
 from zeroset.rendering.tracer import Tracer
 from zeroset.runtime import Device, get_device
 from zeroset.scene.scene import Shown, as_scene
 from zeroset.solve import Method, resolve_method
+from zeroset.solve.names import OPAQUE
 from zeroset.solve.status import MISS
 
 MOST_HITS = 1024
@@ -97,7 +99,8 @@ def cast(
     """
     most = _most(max_hits)
     chosen = resolve_method(method)
-    shown = as_drawn(as_scene(surface).surface)
+    scene = as_scene(surface)
+    shown = as_drawn(scene.surface)
     shown.check(chosen)
     target = get_device(device)
     starts, ways = _rays(origins, directions)
@@ -106,6 +109,7 @@ def cast(
         "tolerance": world_tolerance(tolerance, shown.smallest),
         "near": _end(t_min, "t_min"),
         "far": _end(t_max, "t_max"),
+        OPAQUE: opaque_parts(scene.materials),
     }
     tracer = Tracer(shown, chosen, target, pixels=False, layered=most is not None)
     buffers = tracer.buffers(len(starts), 0) | _ray_buffers(target, starts, ways)

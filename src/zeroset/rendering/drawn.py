@@ -95,7 +95,7 @@ def as_drawn(thing: Drawable | Drawn) -> Drawn:
         leaves: dict[Surface, Leaf] = {}
         for k, surface in enumerate(each.surfaces):
             name = f"{prefix}k{k}_" if isinstance(each, Solid) else prefix
-            leaves[surface] = Leaf(surface.settled.field, name, part, len(surface.isovalues))
+            leaves[surface] = Leaf(surface.drawn_in(each.fitted), name, part, len(surface.isovalues))
             surfaces.append((name, surface))
             part += leaves[surface].parts
         bodies.append(Body(_tree(each, leaves), bounds_kind(each.bounds), prefix))

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import DualSystem, RealSystem
-from zeroset.kernel import F32, U32, KernelBuilder, Value, atomic, constant, if_, lift, store
+from zeroset.kernel import F32, F64, U32, KernelBuilder, Value, atomic, constant, if_, lift, store
 from zeroset.rendering.buffers import CLEAR, COUNTERS, END, NORMAL, PART, SECOND, Ends, fields
 from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Lowered, Ray
@@ -21,6 +21,8 @@ from zeroset.solve.shape import Leaf
 from zeroset.solve.status import MISS, UNRESOLVED
 from zeroset.solve.subject import Subject
 
+STEEPEST = {F32: 2.0**120, F64: 2.0**960}
+"""The longest gradient whose direction can be told; one over the shortest."""
 FAR = 1e30
 """Distance of what cannot be told."""
 
@@ -52,7 +54,7 @@ def _slope_at(lowered: Lowered, point: Sequence[Value]) -> _Slope:
     g = [lift(d.value, lowered.type) for d in map(f.derivative, range(3))]
     # Scale by the largest component first: squares of large or small gradients would overflow or vanish.
     largest = abs(g[0]).maximum(abs(g[1])).maximum(abs(g[2]))
-    usable = (largest > 1e-30) & (largest < 1e30)
+    usable = (largest > 1.0 / STEEPEST[lowered.type]) & (largest < STEEPEST[lowered.type])
     scale = 1.0 / usable.select(largest, 1.0)
     a, b, c = (usable.select(x * scale, 0.0) for x in g)
     inverse = 1.0 / a.fma(a, b.fma(b, c * c)).maximum(1e-10).sqrt()

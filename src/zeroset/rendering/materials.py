@@ -32,6 +32,11 @@ def material_table(materials: Sequence[Material]) -> npt.NDArray[np.float32]:
     return np.asarray(rows, np.float32).reshape(-1)
 
 
+def opaque_parts(materials: Sequence[Material]) -> int:
+    """The parts that nothing is seen through, as bits."""
+    return sum(1 << part for part, material in enumerate(materials) if material.opacity >= 1.0)
+
+
 class Table:
     """A buffer with numbers that seldom change, on one device."""
 

@@ -15,6 +15,7 @@ from zeroset.rendering.drawn import Drawn, as_drawn
 from zeroset.rendering.frame import GBuffer, Progress, frame_for, part_of
 from zeroset.rendering.image import Image
 from zeroset.rendering.layout import TILE, Layout
+from zeroset.rendering.materials import opaque_parts
 from zeroset.rendering.shading import Illumination, Lighting, Smooth, shading_uniforms
 from zeroset.runtime import Device, get_device
 from zeroset.scene.bounds import SMALLEST, Bounds, number
@@ -23,6 +24,7 @@ from zeroset.scene.light import Color, Light, Material
 from zeroset.scene.scene import Scene, Shown, as_scene
 from zeroset.scene.surface import Surface
 from zeroset.solve import Method, resolve_method
+from zeroset.solve.names import OPAQUE
 
 if TYPE_CHECKING:
     from zeroset.rendering.tint import Palette, Tint
@@ -132,6 +134,7 @@ def render(
     view = parse_camera(camera or scene.camera or scene.surface.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.smallest))
+    uniforms[OPAQUE] = opaque_parts(materials)
     uniforms |= shading_uniforms(materials[0], lit, scene.background, rays)
     coarse = shadow_length(shadow_tolerance, shown.smallest)
     light, deep = None, lighting.depth(depth)

@@ -72,6 +72,12 @@ class Ball:
         return 2.0 * self.radius
 
     @property
+    def farthest(self) -> Vector:
+        """The largest size of each coordinate inside."""
+        x, y, z = (abs(c) + self.radius for c in self.center)
+        return x, y, z
+
+    @property
     def reach(self) -> float:
         """Radius of the smallest ball around ``center`` that holds the bounds."""
         return self.radius
@@ -105,6 +111,12 @@ class Box:
     def extent(self) -> float:
         """The diagonal."""
         return math.dist(self.min, self.max)
+
+    @property
+    def farthest(self) -> Vector:
+        """The largest size of each coordinate inside."""
+        x, y, z = (max(abs(a), abs(b)) for a, b in zip(self.min, self.max, strict=True))
+        return x, y, z
 
     @property
     def reach(self) -> float:

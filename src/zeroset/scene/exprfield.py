@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from zeroset.errors import FormulaLimitError
-from zeroset.expr import OPS, Expr, Settled, continuous, degree, evaluate, fraction, postorder, settled
+from zeroset.expr import OPS, Expr, Magnitude, Settled, continuous, degree, evaluate, fraction, postorder, settled
 from zeroset.scene.parameters import TIME
 
 MOST_WORK = 4000
@@ -17,14 +17,20 @@ _FUNCTION_WORK = 8
 
 @dataclass(frozen=True)
 class ExprField:
-    """An expression as something to evaluate on any number system."""
+    """An expression as something to evaluate on any number system.
+
+    Attributes:
+        expr: the expression.
+        large: whether its parts may pass the largest number that kernels know, so that every step has to look.
+    """
 
     expr: Expr
+    large: bool = False
 
     @property
     def digest(self) -> str:
         """Hash of the expression's structure."""
-        return self.expr.digest
+        return f"{self.expr.digest} large" if self.large else self.expr.digest
 
     @property
     def parameters(self) -> frozenset[str]:
@@ -65,7 +71,7 @@ class ExprField:
     def fraction(self) -> tuple[ExprField, ExprField] | None:
         """N and D of f = N/D; N vanishes where f does and is defined at poles. None where f divides by nothing."""
         parts = fraction(self.expr)
-        return None if parts is None else (ExprField(parts[0]), ExprField(parts[1]))
+        return None if parts is None else (ExprField(parts[0], self.large), ExprField(parts[1], self.large))
 
     @cached_property
     def settled(self) -> Settled:
@@ -76,7 +82,17 @@ class ExprField:
     def remaining(self) -> ExprField:
         """What is left for kernels to calculate where those parts are calculated beforehand."""
         expr = self.settled.expr
-        return self if expr is self.expr else ExprField(expr)
+        return self if expr is self.expr else ExprField(expr, self.large)
+
+    @cached_property
+    def watched(self) -> ExprField:
+        """The same field, calculated with an eye on how large its parts get."""
+        return ExprField(self.expr, large=True)
+
+    @cached_property
+    def magnitude(self) -> Magnitude:
+        """Tells how large they may be."""
+        return Magnitude(self.expr)
 
     @cached_property
     def work(self) -> int:

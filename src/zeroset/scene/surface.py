@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 
     from zeroset.scene.solid import Solid
 
+PLENTY = 2.0**90
+"""Largest number on the way to f up to which nobody has to look: kernels in f32 know numbers up to 2^112, and what they
+calculate beside f, its derivatives, may be larger than f."""
 Enclosure = tuple[float, float]
 """Two doubles with a number between them."""
 
@@ -205,6 +208,23 @@ class Surface:
             # Kernels know what to make of numbers that pass the largest one if they come to them by themselves.
             return Calculated(self.field, given)
         return Calculated(self.field.remaining, given | found)
+
+    def drawn_in(self, bounds: Bounds) -> ExprField:
+        """f as kernels calculate it inside bounds: with an eye on large numbers where there may be any."""
+        field, numbers = self.settled
+        known = self._watched.get(bounds)
+        if known is None:
+            sizes = {name: max(-low, high) for name, (low, high) in numbers.items()}
+            reaches = zip("xyz", bounds.farthest, strict=True)
+            arrays = {name: (float(np.abs(v).max(initial=0.0)), v.size) for name, v in self.arrays.items()}
+            largest = field.magnitude.largest({**sizes, **dict(reaches)}, arrays)
+            # A derivative may be larger by as much as the bounds are small.
+            known = self._watched[bounds] = largest > PLENTY * min(bounds.extent, 1.0)
+        return field.watched if known else field
+
+    @cached_property
+    def _watched(self) -> dict[Bounds, bool]:
+        return {}
 
     def check_work(self) -> None:
         """Raise ``FormulaLimitError`` for a formula that no compiler digests while somebody waits."""

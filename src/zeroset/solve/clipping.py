@@ -39,7 +39,7 @@ BEGIN = 0.5
 
 def can_clip(problem: Problem, highest: int = HIGHEST) -> bool:
     """Whether f is a polynomial of a degree that is treated, and f = 0 is all that is searched."""
-    if problem.body is not None:
+    if problem.body is not None or problem.lowered.field.large:
         return False
     degree = problem.lowered.field.degree
     return degree is not None and 1 <= degree <= highest

@@ -16,7 +16,7 @@ from zeroset.errors import MethodError
 from zeroset.kernel import F32, Value, constant
 from zeroset.solve.field import Field
 from zeroset.solve.method import Method, register
-from zeroset.solve.mitchell import isolate, sign_of
+from zeroset.solve.mitchell import Mitchell, isolate, sign_of
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.raypoly import SYSTEM, TINY, Factored, as_value, factor, horner, largest, ray_polynomial
 
@@ -45,6 +45,9 @@ class MitchellExact(Method):
         """Emit the search for the first root."""
         degree = problem.lowered.field.degree
         assert degree is not None
+        if problem.lowered.field.large:
+            # The closed forms would meet numbers that are none.
+            return Mitchell(offset=self.offset).trace(problem)
         polynomial = ray_polynomial(problem, degree)
         pieces = _ExactPieces(problem, polynomial.coefficients, polynomial.derivative())
         one = constant(1.0, F32)

@@ -53,6 +53,10 @@ class Field(Protocol):
         """Whether f may jump for another reason than that it is divided by 0."""
 
     @property
+    def large(self) -> bool:
+        """Whether what f is made of may pass the largest number of f32's or f64's enclosures."""
+
+    @property
     def fraction(self) -> tuple[Field, Field] | None:
         """N and D of f = N/D, both defined where f has a pole; None where f has none."""
 
@@ -161,10 +165,13 @@ class _Env:
 
     def variable(self, name: str) -> Number:
         known = self._variables.get(name)
-        return known if known is not None else self.parameter(name)
+        return self.parameter(name) if known is None else self._seen(known)
 
     def parameter(self, name: str) -> Number:
-        return self._system.enclose(*self._lowered._parameters[name])
+        return self._seen(self._system.enclose(*self._lowered._parameters[name]))
+
+    def _seen(self, number: Number) -> Number:
+        return number.watched() if self._lowered.field.large else number
 
     def sum(self, system: Any, arrays: tuple[str, ...], body: Callable[[Mapping[str, Number]], Number]) -> Number:
         """A kernel loop over the elements; the sum so far is the loop's state, flattened to its scalars."""
@@ -175,7 +182,7 @@ class _Env:
             elements = {}
             for name in arrays:
                 data, error, _ = lowered._arrays[name]
-                elements[name] = system.enclose(load(data, i), load(error, i))
+                elements[name] = self._seen(system.enclose(load(data, i), load(error, i)))
             total = system.rebuild(list(state)) + body(elements)
             return tuple(system.components(system.general(total)))
 

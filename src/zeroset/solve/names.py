@@ -8,6 +8,10 @@ OFFSET = "offset of f"
 """Parameter that no formula can name: what the offset option takes off f."""
 
 
+OPAQUE = "opaque parts"
+"""Uniform of a shape with several bodies: the parts, as bits, that hide what lies in the same place."""
+
+
 def isovalue_name(index: int) -> str:
     """Parameter that no formula can name: one of a surface's isovalues."""
     return f"isovalue {index}"

@@ -16,7 +16,7 @@ from zeroset.arith import Format
 from zeroset.kernel import F32, F64, Scalar, Type, Value, constant, lift
 from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Field, Lowered, Ray
-from zeroset.solve.shape import Body
+from zeroset.solve.shape import Body, has_unions, leaves_of
 
 
 class Problem(NamedTuple):
@@ -67,15 +67,19 @@ class Problem(NamedTuple):
 
     @property
     def orientations(self) -> tuple[int, int]:
-        """The bits of a solid's parts that are in it as they are, and of those that are taken off it."""
-        leaves = () if self.body is None or self.levels else self.body.body.leaves
-        direct, taken = ((leaf.bits for leaf, sign in leaves if sign == wanted) for wanted in (1, -1))
-        return sum(direct), sum(taken)
+        """The bits of a solid's parts that are in it as they are, and of those that are taken off it; one may be both."""
+        leaves = () if self.body is None or self.levels else leaves_of(self.body.body.tree)
+        direct = taken = 0
+        for leaf, sign in leaves:
+            direct, taken = (direct | leaf.bits, taken) if sign > 0 else (direct, taken | leaf.bits)
+        return direct, taken
 
     @property
     def shares_faces(self) -> bool:
         """Whether faces that two parts of a solid share are passed over: in pictures, where f64 has looked closely."""
-        return self.type == F64 and not self.strict and all(self.orientations)
+        if self.type != F64 or self.strict or self.body is None or self.levels:
+            return False
+        return self.orientations[1] != 0 or has_unions(self.body.body.tree)
 
     @property
     def type(self) -> Type:

@@ -178,13 +178,17 @@ def _mark_of(mark: Value | None) -> Value:
 
 
 def _on_a_shared_face(problem: Problem, before: Value, after: Value, mark: Value | None) -> Value:
-    """Whether what lies between two certain signs is but a face of a part that another part is taken off along.
+    """Whether what lies between two certain signs is but a face that parts of a solid share.
 
-    Both parts have the face for theirs, so that it belongs to what is taken off, and nothing is left of it.
+    What is taken off along a face takes the face with it; two parts that lie side by side have no wall between them,
+    and two that are taken off leave none.
     """
     direct, taken = (constant(bits, U32) for bits in problem.orientations)
-    both = (_mark_of(mark) & direct).ne(0) & (_mark_of(mark) & taken).ne(0)
-    return both & before.ne(0.0) & before.eq(after)
+    mark = _mark_of(mark)
+    off = (mark & taken).ne(0)
+    both, several, other = (mark & direct).ne(0) & off, (mark & (mark - 1)).ne(0), (mark & (~taken)).ne(0)
+    shared = both | (several & ((before < 0.0) | ~other))
+    return shared & before.ne(0.0) & before.eq(after)
 
 
 def _passed(zone: _Zone, passed: Value) -> _Zone:

@@ -88,6 +88,17 @@ def leaves_of(tree: Tree, sign: int = 1) -> Iterator[tuple[Leaf, int]]:
             yield from leaves_of(tree.right, sign)
 
 
+def has_unions(tree: Tree) -> bool:
+    """Whether a point may be inside a tree because it is inside one of several parts."""
+    match tree:
+        case Leaf():
+            return False
+        case Complement():
+            return has_unions(tree.of)
+        case Join():
+            return tree.union or has_unions(tree.left) or has_unions(tree.right)
+
+
 class Body(NamedTuple):
     """What is searched at once.
 

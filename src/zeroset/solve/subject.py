@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from zeroset.kernel import F32, U32, KernelBuilder, Type, Value, constant
 from zeroset.solve.body import LoweredBody
 from zeroset.solve.field import Lowered
+from zeroset.solve.names import OPAQUE
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.shape import Leaf, Shape
 from zeroset.solve.status import MISS
@@ -47,6 +48,7 @@ class Subject:
             trace: searches.
         """
         best: Answer | None = None
+        opaque = self.builder.uniform(OPAQUE, U32) if len(self.bodies) > 1 else constant(0, U32)
         for body in self.bodies:
             problem = problem_of(body)
             if best is not None:
@@ -55,17 +57,22 @@ class Subject:
             answer = trace(problem)
             if answer.mark is None and self.shape.parts > 1:
                 answer = answer._replace(mark=constant(body.body.leaves[0][0].bits, U32))
-            best = answer if best is None else _nearer(best, answer)
+            best = answer if best is None else _nearer(best, answer, opaque)
         assert best is not None
         return best
 
 
-def _nearer(a: Answer, b: Answer) -> Answer:
-    """Of two answers the one that comes first along the ray."""
+def _nearer(a: Answer, b: Answer, opaque: Value) -> Answer:
+    """Of two answers the one that comes first along the ray; of two in one place what hides the other, else the former.
+
+    Which root comes first there is rounding: a box of glass on the ground would show now the one, now the other.
+    """
     found_a, found_b = a.status.ne(MISS), b.status.ne(MISS)
-    second = found_b & (~found_a | (b.t < a.t))
     assert a.mark is not None
     assert b.mark is not None
+    together = found_a & found_b & (abs(b.t - a.t) <= (a.end - a.t) + (b.end - b.t))
+    hides = (a.mark & opaque).eq(0) & (b.mark & opaque).ne(0)
+    second = found_b & (~found_a | together.select(hides, b.t < a.t))
 
     def pick(x: Value, y: Value) -> Value:
         return second.select(y, x)
@@ -77,7 +84,7 @@ def _nearer(a: Answer, b: Answer) -> Answer:
         # Where both were found, the ray is clear up to the earlier of the two places where a find may begin.
         (found_a & found_b).select(a.clear.minimum(b.clear), pick(a.clear, b.clear)),
         pick(a.side, b.side),
-        pick(a.end, b.end),
+        together.select(a.end.maximum(b.end), pick(a.end, b.end)),
         pick(a.mark, b.mark),
         None if a.blunt is None or b.blunt is None else pick(a.blunt, b.blunt),
     )

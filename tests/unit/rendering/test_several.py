@@ -192,3 +192,23 @@ def test_a_mirror_that_is_touched_has_no_speckles() -> None:
     # Within the ball the picture is smooth; the roll has moved the middle of each 3 by 3 by one.
     rough = np.abs(np.roll(seen, (1, 1), (0, 1)) - around)[3:, 3:].max(axis=-1)
     assert np.count_nonzero(rough > 8) == 0
+
+
+def test_what_hides_the_other_is_seen_where_two_lie_in_one_place() -> None:
+    """A box of glass stands on the ground: which comes first in the scene does not matter."""
+    ground = zs.surface("z + 1", bounds=zs.Box((-3, -3, -1.5), (3, 3, -0.5)))
+    ground = ground.with_material(zs.Material(front=(0.8, 0.1, 0.1)))
+    box = zs.surface("max(|x|, |y|, |z|) = 1", bounds=1.8)
+    glass = box.with_material(zs.Material(opacity=0.2, ior=1.4, reflectance=0.1))
+    camera = zs.Camera(eye=(1, -8, 3))
+    for above in (box.with_material(zs.Material(opacity=0.3)), glass, box):
+        pictures = [
+            np.asarray(zs.render(zs.Scene(things, camera=camera), 100, device="cpu")).astype(int)
+            for things in ([ground, above], [above, ground])
+        ]
+        assert np.count_nonzero(abs(pictures[0] - pictures[1]).max(axis=-1) > 8) <= 3
+    clear = box.with_material(zs.Material(opacity=0.3))
+    for things, first in (([ground, clear], 0), ([clear, ground], 1)):
+        hits = zs.cast(things, [0.3, 0.2, 5], [0, 0, -1], max_hits=3, device="cpu")
+        assert hits.status.tolist() == [[zs.HIT, zs.HIT, zs.MISS]]
+        assert hits.part[0, :2].tolist() == [1 - first, first]

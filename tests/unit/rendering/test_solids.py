@@ -183,6 +183,33 @@ def test_nothing_is_left_of_what_is_taken_off_itself() -> None:
     assert hits.status.tolist() == [zs.UNRESOLVED]
 
 
+def test_a_surface_may_be_both_in_a_solid_and_taken_off_it() -> None:
+    ball, box = zs.surface("x^2 + y^2 + z^2 = 1"), zs.surface("max(|x|, |y|, |z|) = 0.8")
+
+    def image(solid: Solid) -> zs.Image:
+        return zs.render(solid.with_bounds(1.6), 100, device="cpu")
+
+    left, wanted = image((ball | box) - ball), image(box - ball)
+    # What grazes the ball may be rounding.
+    assert left.unresolved < 100
+    assert abs(left.hits - wanted.hits) <= left.unresolved
+    for nothing in (ball - ball, ball & ~ball, (box & ball) - ball):
+        assert image(nothing).hits < 20
+
+
+def test_parts_side_by_side_have_no_wall_between_them() -> None:
+    left, right = (zs.surface(f"max(|x {sign} 1|, |y|, |z|) = 1") for sign in "+-")
+    one = zs.surface("max(|x|/2, |y|, |z|) = 1")
+    block = zs.surface("max(|x|/3, |y|/1.5, |z|/1.5) = 1")
+    glass = zs.Material(opacity=0.3)
+    for joined, same in ((left | right, one), (block - left - right, block - one)):
+        pictures = [
+            np.asarray(zs.render(solid.with_bounds(3.5), 120, material=glass, device="cpu")).astype(int)
+            for solid in (joined, same)
+        ]
+        assert np.count_nonzero(abs(pictures[0] - pictures[1]).max(axis=-1) > 8) <= 3
+
+
 def test_a_thin_solid_that_is_no_more_than_a_face_is_drawn() -> None:
     """Two closed halves that touch have a plane in common, and that is all of them."""
     plane = (zs.surface("x") & zs.surface("-x")).with_bounds(1.0)
