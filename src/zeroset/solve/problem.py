@@ -67,7 +67,7 @@ class Problem(NamedTuple):
 
     @property
     def orientations(self) -> tuple[int, int]:
-        """The bits of a solid's parts that are in it as they are, and of those that are taken off it; one may be both."""
+        """The bits of a solid's parts that are in it as they are, and of those that are taken off; one may be both."""
         leaves = () if self.body is None or self.levels else leaves_of(self.body.body.tree)
         direct = taken = 0
         for leaf, sign in leaves:

@@ -15,9 +15,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from zeroset.arith import AffineSystem, IntervalSystem
-from zeroset.kernel import BOOL, F64, U32, Value, constant, for_, if_, lift, while_
+from zeroset.arith import AffineSystem
+from zeroset.kernel import BOOL, F64, U32, Value, constant, while_
 from zeroset.solve.compound import Turn, look_at, note_parts
+from zeroset.solve.haze import beside_haze, look_around, mixed, sees_signs, through_a_pole
 from zeroset.solve.look import Interval, Look, read, stretch
 from zeroset.solve.problem import Answer, Problem
 from zeroset.solve.status import HIT, MISS, UNRESOLVED
@@ -27,8 +28,6 @@ ZONE = 3
 """How many narrowest intervals in a row may join before the search gives up on proving their sign change."""
 HAZE = 48
 """The same where f may jump or have no value: beside such a place enclosures are wide over many of them."""
-NEAR = 16.0
-"""Widths of a narrowest interval that are near such a place."""
 GRAZING = 48
 """Evaluations that getting away from the surface that a ray comes from may take."""
 PATIENCE = 1 << 15
@@ -69,13 +68,20 @@ class _Zone(NamedTuple):
     start: Value
     whole: Value
     mark: Value | None = None
+    signs: Value | None = None
 
     def components(self) -> State:
         return self.sign, self.length, self.start, self.whole
 
-    def parts(self) -> State:
-        """The parts that they can be of, where there is a choice."""
-        return () if self.mark is None else (self.mark,)
+    def more(self) -> State:
+        """The parts that they can be of, where there is a choice; the signs seen in between, where f has haze."""
+        return tuple(v for v in (self.mark, self.signs) if v is not None)
+
+    def having(self, more: State) -> _Zone:
+        """The zone with other such values."""
+        left = list(more)
+        mark = None if self.mark is None else left.pop(0)
+        return self._replace(mark=mark, signs=None if self.signs is None else left.pop(0))
 
 
 def search(
@@ -104,71 +110,40 @@ def search(
     alive = problem.t1 > problem.t0
     if wanted is not None:
         alive = alive & wanted
-    zone = _Zone(problem.number(0.0), none, problem.t0, constant(True, BOOL), None if problem.body is None else none)
+    zone = _Zone(
+        problem.number(0.0),
+        none,
+        problem.t0,
+        constant(True, BOOL),
+        None if problem.body is None else none,
+        none if sees_signs(problem) else None,
+    )
 
-    patient = problem.type == F64
+    patient, begun = problem.type == F64, zone
 
     def running(*state: Value) -> Value:
         return state[n] & (state[n + 7] < PATIENCE) if patient else state[n]
 
     def turn(*state: Value) -> State:
-        zone = _Zone(*state[n + 1 : n + 5], *state[n + 12 :])
+        sign, length, begins, whole = state[n + 1 : n + 5]
+        zone = _Zone(sign, length, begins, whole, begun.mark, begun.signs).having(state[n + 12 :])
         passing = None if leaving is None else leaving & (state[n + 7] < GRAZING)
         found, place, zone = _turn(problem, system, walk, delta, state[:n], zone, passing)
         over = found.status.ne(MISS) | walk.ended(problem, place)
         told = found.status, found.t, state[n + 7] + 1, *found.rest
-        return *place, ~over, *zone.components(), *told, *zone.parts()
+        return *place, ~over, *zone.components(), *told, *zone.more()
 
     begin = (constant(MISS, U32), problem.t0, none, problem.t0, problem.number(0.0), problem.t0, constant(False, BOOL))
-    state = while_(running, turn, *first, alive, *zone.components(), *begin, *zone.parts())
+    state = while_(running, turn, *first, alive, *zone.components(), *begin, *zone.more())
     # Where the slope is known it leaves little of the narrowest intervals that can hold the root.
-    status, t, steps, clear, side, end, blunt, *mark = state[n + 5 :]
+    status, t, steps, clear, side, end, blunt, *more = state[n + 5 :]
     if patient:
         given_up, (reached, _) = state[n], walk.interval(problem, state[:n])
         status = given_up.select(constant(UNRESOLVED, U32), status)
         t, clear = (given_up.select(reached, place) for place in (t, clear))
         end = given_up.select(problem.t1, end)
     blunt = blunt | ((state[n + 2] > 0) & (end - clear > problem.tolerance * (BLUNT if _bends(system) else 0.5)))
-    return Answer(t, status, steps, clear, side, end, mark[0] if mark else None, blunt)
-
-
-def _beside_haze(problem: Problem, a: Value, b: Value, wanted: Value) -> Value:
-    """Whether f jumps or has no value within a few widths of [a, b], which makes it enclosed too widely there."""
-    system = IntervalSystem(problem.fmt)
-
-    def near() -> tuple[Value]:
-        over = Interval.between(a, b)
-        t = system.enclose(over.middle, over.half * NEAR)
-        if problem.body is None:
-            return (~lift(problem.lowered.along(system, problem.ray, t).defined, BOOL),)
-        along = [
-            system.exact(o) + system.exact(d) * t
-            for o, d in zip(problem.ray.origin, problem.ray.direction, strict=True)
-        ]
-        return (problem.body.jumps(system, along),)
-
-    (found,) = if_(wanted, near, lambda: (False,))
-    return found
-
-
-def _through_a_pole(problem: Problem, a: Value, b: Value, wanted: Value) -> Value:
-    """Whether f has a zero between a and b although it has the same sign at both, for it has a pole there as well.
-
-    Then its numerator changes its sign, as the denominator does.
-    """
-    if problem.body is not None or not problem.lowered.has_poles:
-        return constant(False, BOOL)
-    system = IntervalSystem(problem.fmt)
-
-    def one(i: Value, product: Value) -> Value:
-        place = system.exact(i.eq(0).select(a, b))
-        top = problem.lowered.numerator(system, lambda other: other.along(system, problem.ray, place))
-        above, below = (lift(sign, BOOL) for sign in top.signs())
-        number = problem.number
-        return product * above.select(number(1.0), below.select(number(-1.0), 0.0))
-
-    (turns,) = if_(wanted, lambda: for_(2, one, problem.number(1.0)), lambda: (0.0,))
-    return turns < 0.0
+    return Answer(t, status, steps, clear, side, end, zone.having(tuple(more)).mark, blunt)
 
 
 def _mark_of(mark: Value | None) -> Value:
@@ -231,10 +206,14 @@ def _turn(
     changes = _differ(problem, zone.sign, seen.before)
     shared = problem.shares_faces
     if problem.hazy:
-        changes = changes | _through_a_pole(problem, zone.start, a, closes & ~zone.whole & ~changes)
+        changes = changes | through_a_pole(problem, zone.start, a, closes & ~zone.whole & ~changes)
     if problem.hazy or shared:
         # f jumps or has no value in the zone, and the same sign on either side: no surface, and no zone any more.
-        over = ~zone.whole & ~changes if problem.hazy else constant(False, BOOL)
+        over = (
+            ~zone.whole & ~changes & ~mixed(zone.signs, zone.sign, seen.before)
+            if problem.hazy
+            else constant(False, BOOL)
+        )
         if shared:
             over = over | _on_a_shared_face(problem, zone.sign, seen.before, zone.mark)
         zone, closes = _passed(zone, closes & over), closes & ~over
@@ -246,9 +225,12 @@ def _turn(
         joins = joins & (~begins | proven)
         cut = cut & ~begins
     start = in_zone.select(zone.start, seen.left)
-    firm = seen.defined
-    if problem.hazy:
-        firm = firm & ~_beside_haze(problem, a, b, joins & firm)
+    firm, signs = seen.defined, zone.signs
+    if signs is not None:
+        haze, inside = look_around(problem, a, seen.right, joins)
+        firm, signs = firm & ~haze, in_zone.select(signs, constant(0, U32)) | inside
+    elif problem.hazy:
+        firm = firm & ~beside_haze(problem, a, b, joins & firm)
     whole = (~in_zone | zone.whole) & firm
     sign = cut.select(seen.before, zone.sign)
     # Right of what joins, up to b, the sign may be known as well: then the zone closes at once.
@@ -256,8 +238,8 @@ def _turn(
     turns = _differ(problem, sign, seen.after)
     passed = constant(False, BOOL)
     if problem.hazy:
-        turns = turns | _through_a_pole(problem, start, seen.right, ends & ~whole & ~turns)
-        passed = ends & ~whole & ~turns
+        turns = turns | through_a_pole(problem, start, seen.right, ends & ~whole & ~turns)
+        passed = ends & ~whole & ~turns & ~mixed(signs, sign, seen.after)
     if shared:
         own = in_zone.select(_mark_of(zone.mark), constant(0, U32)) | _mark_of(seen.mark)
         passed = passed | (ends & _on_a_shared_face(problem, sign, seen.after, own))
@@ -287,6 +269,7 @@ def _turn(
         joins.select(zone.length + 1, zone.length),
         joins.select(start, zone.start),
         joins.select(whole, zone.whole),
+        signs=signs,
     )
     if problem.hazy or shared:
         after = _passed(after._replace(sign=passed.select(seen.after, after.sign)), passed)

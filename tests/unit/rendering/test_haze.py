@@ -91,3 +91,27 @@ def test_rays_of_ones_own_are_not_told_that_there_is_nothing() -> None:
     """A caller gets what is proven: nothing is known of f right beside x = 0."""
     hits = zs.cast(zs.surface("z = sin(x)/x", bounds=4), [[-3, 0.2, 2.5], [-3, 0.2, 0.5]], [[1, 0.1, 0], [1, 0, 0]])
     assert hits.status.tolist() == [zs.UNRESOLVED, zs.HIT]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_a_sheet_is_drawn_up_to_where_f_ends(device: str) -> None:
+    """Seen from its edge the sheet lies less than a tolerance behind the end of f's domain, and yet is pixels high."""
+    size, camera = 160, zs.Camera(eye=(-0.5, 0, 0.12), target=(0, 0, 0.03), fov=25)
+    image = zs.render(zs.surface("z - sqrt(x)", bounds=1.5), size, camera, device=device)
+    eye, _, _, forward, _, up = map(np.array, camera.rays(size, size))
+    middles = (np.arange(size) + 0.5) * 2 / size - 1
+    heights = [(eye + 0.5 / (forward - v * up)[0] * (forward - v * up))[2] for v in middles]
+    # Rays that come above z = 0 to where x is 0 meet the sheet; one row may be closer to it than f32 tells.
+    rows = (image.aov("status") > 0).mean(axis=1)[np.array(heights) > 0]
+    assert len(rows) > 60
+    assert np.count_nonzero(rows < 1) <= 1
+
+
+def test_a_root_before_a_jump_back_is_drawn() -> None:
+    surface = zs.surface("if(1e-3 < (y-z), x, y) - tanh(sin(acosh(hypot(40x, y-z))))", bounds=1.5)
+    image = zs.render(surface, SIZE, CAMERA, device="cpu")
+    eye, ways = rays()
+    hits = zs.cast(surface, eye, ways.reshape(-1, 3), device="cpu")
+    proven = (hits.status == zs.HIT).reshape(SIZE, SIZE)
+    assert proven.sum() > 2000
+    assert np.count_nonzero(proven & (image.aov("status") == zs.MISS)) <= 0.005 * proven.sum()

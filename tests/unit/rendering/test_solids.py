@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from tests.gpus import needs_gpu
@@ -186,7 +188,7 @@ def test_nothing_is_left_of_what_is_taken_off_itself() -> None:
 def test_a_surface_may_be_both_in_a_solid_and_taken_off_it() -> None:
     ball, box = zs.surface("x^2 + y^2 + z^2 = 1"), zs.surface("max(|x|, |y|, |z|) = 0.8")
 
-    def image(solid: Solid) -> zs.Image:
+    def image(solid: Any) -> zs.Image:
         return zs.render(solid.with_bounds(1.6), 100, device="cpu")
 
     left, wanted = image((ball | box) - ball), image(box - ball)
