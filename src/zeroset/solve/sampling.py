@@ -159,6 +159,12 @@ class AdaptiveMarchingPoints(_Marching):
     epsilon: float = uniform(0.1)
     silhouettes: bool = True
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("tau1", "tau2", "epsilon"):
+            if getattr(self, name) < 0.0:
+                raise MethodError(f"{self.name}: {name} must not be negative: it is compared with a size")
+
     def trace(self, problem: Problem) -> Answer:
         """Emit the search for the first root."""
         samples = _Samples(problem, self.test == "taylor" or self.silhouettes)

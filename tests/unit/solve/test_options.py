@@ -51,6 +51,7 @@ def test_a_method_is_named_or_given() -> None:
         ("marching-points", {"steps": "many"}, "steps must be a finite number"),
         ("adaptive-marching-points", {"silhouettes": "yes"}, "silhouettes must be True or False"),
         ("adaptive-marching-points", {"tau1": float("inf")}, "tau1 must be a finite number"),
+        ("adaptive-marching-points", {"epsilon": -1.0}, "epsilon must not be negative"),
     ],
 )
 def test_bad_options_are_refused(name: str, options: dict[str, Any], said: str) -> None:
