@@ -182,7 +182,8 @@ def _points(values: npt.ArrayLike, what: str) -> npt.NDArray[np.float32]:
         raise ArrayShapeError(f"{what} must have the shape (N, 3), not {exact.shape}")
     bad = np.flatnonzero(~np.all(np.abs(exact) < 1e30, axis=1))
     if len(bad):
-        raise ArrayShapeError(f"{what} must be below 1e30 in size: number {bad[0]} is {exact[bad[0]].tolist()}")
+        wanted = "below 1e30 in size" if np.all(np.isfinite(exact[bad[0]])) else "finite"
+        raise ArrayShapeError(f"{what} must be {wanted}: number {bad[0]} is {exact[bad[0]].tolist()}")
     return exact.astype(np.float32)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.gpus import no_gpu
 
 import zeroset as zs
 from zeroset.solve.status import HIT, MISS
@@ -29,6 +30,17 @@ def test_the_root_is_where_it_is(formula: str, half: float, root: float, method:
     found = zs.cast(surface, [begin, 0.0, 0.0], [1.0, 0.0, 0.0], method=method, device="cpu")
     assert found.status[0] == HIT
     assert begin + found.t[0] == pytest.approx(root, abs=1e-3 * half)
+
+
+@pytest.mark.skipif(bool(no_gpu()), reason=no_gpu() or "there is one")
+@pytest.mark.parametrize(("formula", "half", "root"), CASES[:4])
+def test_a_gpu_says_nothing_else(formula: str, half: float, root: float) -> None:
+    surface = zs.surface(formula, bounds=zs.Box((-half,) * 3, (half,) * 3))
+    found = zs.cast(surface, [-2.0 * half, 0.0, 0.0], [1.0, 0.0, 0.0], device="gpu")
+    # Without f64 it may not know.
+    assert found.status[0] != MISS
+    if found.status[0] == HIT:
+        assert found.t[0] - 2.0 * half == pytest.approx(root, abs=1e-3 * half)
 
 
 def test_high_powers_of_far_coordinates() -> None:
