@@ -177,13 +177,14 @@ class Image:
 
         if self.coloring is None or self.range is None:
             raise ZerosetError("there is no legend: the surface is not coloured by anything", hint=_COLOR)
-        values = self.aov(VALUE)[self.aov("status") != MISS]
-        known = values[~np.isnan(values)]
+        values = self._outputs.rows(VALUE)[self.aov("status") != MISS]
+        known = values[np.abs(values) <= LARGEST]
         low, high = self.range
         # What rounding puts beyond an end is no more than that; a cyclic map has no ends.
         hair = np.inf if self.coloring.cyclic else 1e-5 * (high - low)
         below, above = bool(np.any(known < low - hair)), bool(np.any(known > high + hair))
-        missing = len(known) < len(values)
+        # Parts that keep their own colours lack nothing.
+        missing = bool(np.any(values > LARGEST))
         key = Key(self.coloring.quantity.title, self.coloring.chosen_map, (low, high), below, above, missing)
         return with_legend(self.pixels, key)
 
