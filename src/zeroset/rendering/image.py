@@ -137,7 +137,7 @@ class Image:
             name: ``depth`` (distance along the viewing direction, inf where nothing is hit), ``t`` (nan there),
                 ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved), ``steps``, ``part`` (which of
                 several surfaces, isovalues or surfaces of a solid; 0 where there is one alone), or ``value``, the
-                quantity that the surface is coloured by (nan where there is none).
+                quantity that the part is coloured by (nan where there is none).
         """
         if name == VALUE and self.coloring is None:
             raise ZerosetError("there is no value: the surface is not coloured by any", hint=_COLOR)

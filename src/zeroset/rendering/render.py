@@ -87,8 +87,8 @@ def render(
         antialias: rays of each pixel at a silhouette, a crease or another edge, 1 to 256; 16 makes them smooth.
         samples: rays of every pixel, 1 to 256, instead.
         progress: called now and then with the share that is done, from 0 to 1.
-        color_by: a quantity that gives the colour of each point: a ``zs.Coloring``, one's name, or a formula; None
-            takes the material's own.
+        color_by: a quantity that gives the colour of each point of all that is drawn: a ``zs.Coloring``, one's name, or
+            a formula; None takes the materials' own.
 
     Returns:
         The picture, with depth, normals, status, steps and the value coloured by as ``image.aov(name)``.
