@@ -70,16 +70,18 @@ def colored(thing: Drawable, usual: Material) -> Colored | None:
 
 def _shown(coloring: Coloring, surfaces: Sequence[Surface], colorings: Sequence[Coloring | None]) -> tuple[bool, ...]:
     """For each surface whether a coloring is given to it and means something; raises where it does so for none."""
-    asked = [surface for surface, own in zip(surfaces, colorings, strict=True) if own is not None]
-    errors: dict[Surface, ZerosetError] = {}
-    for surface in asked:
+    shown = [own is not None for own in colorings]
+    asked = [i for i, on in enumerate(shown) if on]
+    errors: list[ZerosetError] = []
+    for i in asked:
         try:
-            _meant(coloring, surface)
+            _meant(coloring, surfaces[i])
         except ZerosetError as error:
-            errors[surface] = error
-    if len(errors) == len(set(asked)):
-        raise _told(errors[asked[0]], coloring.by, asked)
-    return tuple(own is not None and surface not in errors for surface, own in zip(surfaces, colorings, strict=True))
+            shown[i] = False
+            errors.append(error)
+    if not any(shown):
+        raise _told(errors[0], coloring.by, [surfaces[i] for i in asked])
+    return tuple(shown)
 
 
 def _check_work(found: Colored) -> None:
