@@ -13,6 +13,7 @@ from zeroset.errors import ParameterError
 
 if TYPE_CHECKING:
     from zeroset.scene.coloring import Coloring
+    from zeroset.scene.light import Material
     from zeroset.scene.scene import Scene
     from zeroset.scene.surface import Surface
 
@@ -29,7 +30,8 @@ OPTIONS = (
     click.option(
         "--color-by",
         metavar="QUANTITY|FORMULA",
-        help="gaussian-curvature, mean-curvature, gradient, steps, depth, or a formula in x, y, z and the parameters.",
+        help="gaussian-curvature, mean-curvature, gradient, steps, depth, isovalue, or a formula in x, y, z and the "
+        "parameters.",
     ),
     click.option("--map", "color_map", help="Its colours: lagoon, ember, gray, coolwarm, earth or wheel."),
     click.option("--range", "color_range", metavar="LOW,HIGH", help="Values of the first and the last colour."),
@@ -49,16 +51,19 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
     changes = {name: look[name] for name in MATERIAL if look[name] is not None} | colors
     if look["last_solid"]:
         changes["last_solid"] = True
-    coloring = _coloring(scene.material.coloring, look)
-    material = dataclasses.replace(scene.material, coloring=coloring, **changes)
+    colors_alone = look["color_by"] is None and (look["color_map"], look["color_range"]) != (None, None)
+    if colors_alone and scene.coloring is None:
+        raise ParameterError(
+            "there is a colour map or a range, but nothing to colour by", hint="try --color-by gaussian-curvature"
+        )
+
+    def dressed(material: Material) -> Material:
+        return dataclasses.replace(material, **changes, coloring=_coloring(material.coloring, look))
 
     def changed(surface: Surface) -> Surface:
-        own = surface.material
-        if own is None:
-            return surface
-        return surface.with_material(dataclasses.replace(own, **changes, coloring=_coloring(own.coloring, look)))
+        return surface if surface.material is None else surface.with_material(dressed(surface.material))
 
-    shown = scene.surface.mapped(changed)
+    material, shown = dressed(scene.material), scene.surface.mapped(changed)
     materials = [material, *(surface.material for surface in shown.surfaces if surface.material is not None)]
     if (look["last_solid"] or look["ior"] is not None) and all(each.opacity >= 1 for each in materials):
         raise ParameterError(
@@ -73,7 +78,7 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
 
 
 def _coloring(coloring: Coloring | None, look: dict[str, Any]) -> Coloring | None:
-    """What the surface is coloured by, with what the options say of it."""
+    """What a surface is coloured by, with what the options say of it; one that nothing colours stays so."""
     if look["color_by"] is not None:
         from zeroset.scene.coloring import Coloring
 
@@ -83,10 +88,6 @@ def _coloring(coloring: Coloring | None, look: dict[str, Any]) -> Coloring | Non
         changes["map"] = look["color_map"]
     if look["color_range"] is not None:
         changes["range"] = _range(look["color_range"])
-    if changes and coloring is None:
-        raise ParameterError(
-            "there is a colour map or a range, but nothing to colour by", hint="try --color-by gaussian-curvature"
-        )
     return coloring if coloring is None else dataclasses.replace(coloring, **changes)
 
 

@@ -78,7 +78,7 @@ def check_sides(scene: Scene, changes: dict[str, Color]) -> None:
     """Raise where nothing would be seen of the two colours."""
     if not changes:
         return
-    if any(material.coloring is not None for material in scene.materials):
+    if all(material.coloring is not None for material in scene.materials):
         raise ParameterError("--front and --back are not seen on a surface that is coloured by a quantity")
     if any(surface.isovalues for surface in scene.surface.surfaces):
         raise ParameterError("--front and --back are not seen where each isovalue has a colour of its own")

@@ -90,7 +90,7 @@ def command(
             raise OutputError(f"{extra!r} would be a {suffix} file", hint=f"call it {Path(extra).stem}{suffix}")
     scene = with_isovalues(find_scene(source, params, bounds), isovalues)
     scene = with_look(scene, look)
-    if legend and scene.materials[0].coloring is None:
+    if legend and scene.coloring is None:
         raise ParameterError("there is nothing that a legend could explain", hint="try --color-by gaussian-curvature")
     scene = dataclasses.replace(scene, camera=choose_camera(scene, eye, target, up, fov, height, orbit))
     twin.allow()

@@ -13,8 +13,9 @@ from typing import NamedTuple
 from zeroset.kernel import BOOL, F32, U32, Value, constant, if_, load, store, while_
 from zeroset.rendering.buffers import STACK, STACK_WORDS
 from zeroset.rendering.gbuffer import behind, meet
+from zeroset.rendering.measure import Measure
 from zeroset.rendering.primary import in_doubles, problem_on, stride
-from zeroset.rendering.quantity import Measure, Met
+from zeroset.rendering.quantity import Met
 from zeroset.rendering.response import BRIGHTEST, Found, Onward, Response
 from zeroset.solve.clipping import LOW, can_clip, clipped
 from zeroset.solve.field import Ray
@@ -147,7 +148,7 @@ class Chain:
         met = if_(hit, lambda: meet(subject, now.ray, answer), lambda: nothing)
         value = None
         if self._measure is not None:
-            measure, place = self._measure, Met(now.ray, answer.t, answer.steps)
+            measure, place = self._measure, Met(now.ray, answer.t, answer.steps, met[3] if self.parts else None)
             (value,) = if_(hit, lambda: (measure.at(place),), lambda: (zero,))
         return Found(hit, answer.t, met[:3], answer.clear, end, met[3] if self.parts else None, value)
 

@@ -10,12 +10,12 @@ import numpy as np
 from zeroset.kernel import Kernel
 from zeroset.kernel.types import F32
 from zeroset.rendering.buffers import COLORS, VALUE
+from zeroset.rendering.drawn import Drawn
 from zeroset.rendering.layout import Layout
 from zeroset.rendering.tint import Palette, Tint, found_range
 from zeroset.rendering.tracer import Tracer
 from zeroset.rendering.values import Arrays
 from zeroset.runtime import Device
-from zeroset.scene.surface import Surface
 from zeroset.shade.colormap import LARGEST, STEPS
 from zeroset.solve.method import Method
 from zeroset.solve.status import MISS
@@ -26,7 +26,6 @@ class Colors:
 
     Args:
         tracer: makes the program along with its own.
-        surface: what is coloured.
         method: of the frame, for its offset.
         tint: by what.
         layout: of the frame.
@@ -37,17 +36,15 @@ class Colors:
         range: values of the first and the last colour in the last picture.
     """
 
-    def __init__(
-        self, tracer: Tracer, surface: Surface, method: Method, tint: Tint, layout: Layout, device: Device
-    ) -> None:
-        field, offset = surface.field, method.offset != 0.0
+    def __init__(self, tracer: Tracer, method: Method, tint: Tint, layout: Layout, device: Device) -> None:
+        offset = method.offset != 0.0
 
         def build() -> Kernel:
-            from zeroset.rendering.quantity import value_kernel
+            from zeroset.rendering.measure import value_kernel
 
-            return value_kernel(field, offset, tint)
+            return value_kernel(offset, tint)
 
-        self._name = f"value {field.digest} {offset} {tint.digest}"
+        self._name = f"value {offset} {tint.digest}"
         tracer.add(self._name, build)
         self._tracer = tracer
         self._method = method
@@ -60,20 +57,20 @@ class Colors:
         self.range = (0.0, 1.0)
 
     def run(
-        self, surface: Surface, palette: Palette, uniforms: Mapping[str, float], bound: Mapping[str, Any]
+        self, drawn: Drawn, palette: Palette, uniforms: Mapping[str, float], bound: Mapping[str, Any]
     ) -> tuple[dict[str, float], dict[str, Any]]:
         """Find the values; gives the uniforms and buffers with all that shading needs to show them.
 
         Args:
-            surface: of this structure.
+            drawn: of this structure.
             palette: the colours.
             uniforms: the frame's.
             bound: the frame's buffers, with what the camera's rays have found.
         """
-        numbers = {**uniforms, **palette.view, **self._tint.uniforms(surface, self._method)}
+        numbers = {**uniforms, **palette.view, **self._tint.uniforms(drawn, self._method)}
         buffers = {**bound, VALUE: self.values, COLORS: self._table}
-        if surface.arrays:
-            buffers |= self._arrays.bind(surface, self._tint.type)
+        if drawn.arrays:
+            buffers |= drawn.bind(self._arrays, self._tint.type)
         self._device.write(self._table, palette.table)
         self._tracer.program(self._name).run(self._layout.lanes, numbers, buffers)
         self.range = palette.range or self._found(palette, bound)

@@ -146,7 +146,7 @@ class Frame:
         if tint is not None:
             from zeroset.rendering.coloring import Colors
 
-            self._colors = Colors(self._tracer, drawn.surfaces[0][1], method, tint, layout, device)
+            self._colors = Colors(self._tracer, method, tint, layout, device)
         self._shades = optics is None or optics.plain
         if self._shades:
             self._tracer.add(self._shader, shader)
@@ -216,7 +216,7 @@ class Frame:
         kept = self._fields
         range_: tuple[float, float] | None = None
         if self._colors is not None and palette is not None:
-            uniforms, bound = self._colors.run(drawn.surfaces[0][1], palette, uniforms, bound)
+            uniforms, bound = self._colors.run(drawn, palette, uniforms, bound)
             kept, range_ = {**self._fields, VALUE: F32}, self._colors.range
         if self._shades:
             if light is not None and LIT in self._buffers:

@@ -137,7 +137,7 @@ class Image:
             name: ``depth`` (distance along the viewing direction, inf where nothing is hit), ``t`` (nan there),
                 ``normal`` (height, width, 3), ``status`` (0 miss, 1 hit, 2 unresolved), ``steps``, ``part`` (which of
                 several surfaces, isovalues or surfaces of a solid; 0 where there is one alone), or ``value``, the
-                quantity that the surface is coloured by (nan where there is none).
+                quantity that the part is coloured by (nan where there is none).
         """
         if name == VALUE and self.coloring is None:
             raise ZerosetError("there is no value: the surface is not coloured by any", hint=_COLOR)
@@ -177,13 +177,14 @@ class Image:
 
         if self.coloring is None or self.range is None:
             raise ZerosetError("there is no legend: the surface is not coloured by anything", hint=_COLOR)
-        values = self.aov(VALUE)[self.aov("status") != MISS]
-        known = values[~np.isnan(values)]
+        values = self._outputs.rows(VALUE)[self.aov("status") != MISS]
+        known = values[np.abs(values) <= LARGEST]
         low, high = self.range
         # What rounding puts beyond an end is no more than that; a cyclic map has no ends.
         hair = np.inf if self.coloring.cyclic else 1e-5 * (high - low)
         below, above = bool(np.any(known < low - hair)), bool(np.any(known > high + hair))
-        missing = len(known) < len(values)
+        # Parts that keep their own colours lack nothing.
+        missing = bool(np.any(values > LARGEST))
         key = Key(self.coloring.quantity.title, self.coloring.chosen_map, (low, high), below, above, missing)
         return with_legend(self.pixels, key)
 

@@ -12,7 +12,7 @@ from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, co
 from zeroset.rendering.buffers import CLEAR, EDGES, END, NORMAL, PART, PICTURE, VALUE
 from zeroset.rendering.chain import Chain, Traveller, Values
 from zeroset.rendering.layout import frame_coordinates, pixel_coordinates, pixel_place, tile_of
-from zeroset.rendering.quantity import Measure
+from zeroset.rendering.measure import Measure
 from zeroset.rendering.response import Color, Found, Response
 from zeroset.rendering.shade import background
 from zeroset.rendering.shading import Optics
@@ -112,9 +112,7 @@ def _chain(
     step: Value | None = None,
 ) -> Chain:
     response = Response(Subject(shape, builder, offset=offset), optics)
-    # Only a plain surface is coloured by a quantity.
-    field = shape.bodies[0].leaves[0][0].field
-    measure = None if tint is None else Measure(builder, field, offset, tint)
+    measure = None if tint is None else Measure(builder, offset, tint)
     return Chain(response, measure, place, step, Subject(shape, builder, F64, offset) if exact else None)
 
 

@@ -1,8 +1,7 @@
-"""The quantity that a surface is coloured by, computed in kernels at the point that a ray has met.
+"""A quantity of one surface, computed in kernels at the point that a ray has met.
 
 Derivatives are exact: dual numbers over plain ones for gradients, dual numbers over those for second derivatives. They
-are taken in f64 where the device has it. The ``value`` pass does it for the camera's rays, with one value a pixel in a
-buffer; rays beyond the first hit do it where they are shaded. No kernel of a picture without colouring has any of it.
+are taken in f64 where the device has it. ``measure`` asks for the quantity of the part that was met.
 """
 
 from __future__ import annotations
@@ -15,16 +14,12 @@ from zeroset.arith import F32 as FORMAT32
 from zeroset.arith import F64 as FORMAT64
 from zeroset.arith import Real, RealSystem
 from zeroset.arith.derivatives import PAIRS, first_derivatives, second_derivatives
-from zeroset.kernel import BOOL, F32, U32, Kernel, KernelBuilder, Value, constant, if_, lift, load, store
-from zeroset.rendering.buffers import VALUE
-from zeroset.rendering.layout import pixel_coordinates
-from zeroset.rendering.tint import Tint
-from zeroset.rendering.view import pixel_ray
+from zeroset.kernel import BOOL, F32, KernelBuilder, Value, constant, lift
+from zeroset.rendering.tint import Source, Tint
 from zeroset.shade.colormap import LARGEST, UNDEFINED
 from zeroset.shade.curvature import gaussian, mean
 from zeroset.shade.reflectance import dot
-from zeroset.solve.field import Field, Lowered, Ray
-from zeroset.solve.status import MISS
+from zeroset.solve.field import Lowered, Ray
 
 NEAR = 4.0
 """Tolerances by which a point may be moved to lie on the surface more closely."""
@@ -38,49 +33,42 @@ class Met(NamedTuple):
         ray: f32.
         t: where, f32.
         steps: evaluations that it took, u32.
+        part: which part it is, u32, where there is more than one.
     """
 
     ray: Ray
     t: Value
     steps: Value
+    part: Value | None = None
 
     def point(self) -> list[Value]:
         """The place, f32."""
         return [self.t.fma(d, o) for o, d in zip(self.ray.origin, self.ray.direction, strict=True)]
 
 
-def value_kernel(field: Field, offset: bool, tint: Tint) -> Kernel:
-    """The value at what each camera's ray has met; ``UNDEFINED`` where there is none."""
-    with KernelBuilder("value") as builder:
-        lane = builder.index()
-        measure = Measure(builder, field, offset, tint)
-        hit = load(builder.buffer("status", U32), lane).ne(MISS)
+class Gauge:
+    """One quantity of one surface inside one kernel.
 
-        def there() -> tuple[Value, ...]:
-            ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
-            met = Met(ray, load(builder.buffer("t", F32), lane), load(builder.buffer("steps", U32), lane))
-            return (measure.at(met),)
+    Args:
+        builder: the kernel being traced; all values are made where the gauge is.
+        offset: whether the method has one.
+        tint: which quantity.
+        source: of what.
+    """
 
-        (value,) = if_(hit, there, lambda: (constant(UNDEFINED, F32),))
-        store(builder.buffer(VALUE, F32, writable=True), lane, value)
-    return builder.kernel
-
-
-class Measure:
-    """One quantity of one surface inside one kernel."""
-
-    def __init__(self, builder: KernelBuilder, field: Field, offset: bool, tint: Tint) -> None:
+    def __init__(self, builder: KernelBuilder, offset: bool, tint: Tint, source: Source) -> None:
         self._builder = builder
         self._kind = tint.kind
         self._type = tint.type
         self._real = RealSystem(FORMAT32 if tint.type == F32 else FORMAT64)
-        self._field = tint.formula or field
-        self._offset = offset and tint.formula is None
+        self._source = source
+        self._offset = offset and tint.kind != "formula"
 
     @cached_property
     def _lowered(self) -> Lowered:
         """The formula where it is one, else f."""
-        return Lowered(self._field, self._builder, self._type, self._offset)
+        assert self._source.field is not None
+        return Lowered(self._source.field, self._builder, self._type, self._offset, self._source.prefix)
 
     def at(self, met: Met) -> Value:
         """The value at what a ray has met, f32; ``UNDEFINED`` where it has none."""
@@ -89,7 +77,7 @@ class Measure:
             "depth": self._depth,
             "gradient": self._gradient,
             "gaussian-curvature": partial(self._curvature, gaussian),
-            "mean-curvature": partial(self._curvature, mean),
+            "mean-curvature": partial(self._curvature, mean if self._source.sign > 0 else _turned_mean),
         }
         value, defined = kinds.get(self._kind, self._by_formula)(met)
         # A comparison that no NaN passes.
@@ -157,6 +145,11 @@ class Measure:
 
     def _values(self, numbers: Sequence[Real]) -> list[Value]:
         return [lift(n.value, self._type) for n in numbers]
+
+
+def _turned_mean(g: Vector, h: Vector) -> Value:
+    """The mean curvature of -f: of what is taken off a solid."""
+    return lift(-mean(g, h), g[0].type)
 
 
 def _scale(vector: Vector) -> Value:

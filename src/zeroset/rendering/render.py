@@ -28,6 +28,7 @@ from zeroset.solve.names import OPAQUE
 
 if TYPE_CHECKING:
     from zeroset.rendering.tint import Palette, Tint
+    from zeroset.scene.colored import Colored
     from zeroset.scene.coloring import Coloring
     from zeroset.scene.environment import Environment
 
@@ -88,8 +89,8 @@ def render(
         antialias: rays of each pixel at a silhouette, a crease or another edge, 1 to 256; 16 makes them smooth.
         samples: rays of every pixel, 1 to 256, instead.
         progress: called now and then with the share that is done, from 0 to 1.
-        color_by: a quantity that gives the colour of each point: a ``zs.Coloring``, one's name, or a formula; None
-            takes the material's own.
+        color_by: a quantity that gives the colour of each point of all that is drawn: a ``zs.Coloring``, one's name, or
+            a formula; None takes the materials' own.
 
     Returns:
         The picture, with depth, normals, status, steps and the value coloured by as ``image.aov(name)``.
@@ -104,6 +105,12 @@ def render(
         ((64, 64), True)
     """
     scene = as_scene(surface)
+    # Surroundings and colours of a quantity are imported where they are asked for, which they seldom are.
+    if color_by is not None:
+        from zeroset.scene.coloring import as_coloring
+
+        coloring = as_coloring(color_by)
+        scene, material = _colored(scene, coloring), None if material is None else replace(material, coloring=coloring)
     scene = replace(
         scene,
         material=scene.material if material is None else material,
@@ -111,15 +118,10 @@ def render(
         background=scene.background if background is None else background,
         shadows=scene.shadows if shadows is None else shadows,
     )
-    # Surroundings and colours of a quantity are imported where they are asked for, which they seldom are.
     if environment is not None:
         from zeroset.scene.environment import as_environment
 
         scene = replace(scene, environment=as_environment(environment))
-    if color_by is not None:
-        from zeroset.scene.coloring import as_coloring
-
-        scene = _colored(scene, as_coloring(color_by))
     shown, lit, materials = as_drawn(scene.surface), scene.lights, scene.materials
     layout = _layout(size)
     chosen = resolve_method(method)
@@ -127,7 +129,8 @@ def render(
     target = get_device(device)
     smooth = Smooth.of(antialias, samples)
     lighting = Lighting.of(scene, smooth)
-    tint = _tint(scene, target) if lighting.colored else None
+    colored = scene.colored
+    tint = None if colored is None else _tint(colored, shown, target)
     whole = fits(layout, target)
     # First the frame: its kernels are compiled while the bounds are being fitted.
     frame = frame_for(shown, chosen, lighting, layout, target, draft, tint) if whole else None
@@ -140,8 +143,7 @@ def render(
     light, deep = None, lighting.depth(depth)
     if scene.shadows or lighting.optics is not None:
         light = Illumination.of(scene, rays, coarse, deep, smooth)
-    coloring = materials[0].coloring
-    palette = None if coloring is None else _palette(coloring, scene, rays)
+    palette = None if colored is None else _palette(colored, rays)
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
@@ -160,7 +162,7 @@ def render(
             with part.lock:
                 share = part_of(progress, i, len(parts))
                 outputs.add(band, part.draw(shown, own, thin, share, draft, light, materials, palette))
-    return Image((layout.width, layout.height), outputs, chosen.certified, coloring)
+    return Image((layout.width, layout.height), outputs, chosen.certified, scene.coloring)
 
 
 def _colored(scene: Scene, coloring: Coloring | None) -> Scene:
@@ -174,16 +176,16 @@ def _colored(scene: Scene, coloring: Coloring | None) -> Scene:
     return replace(scene, surface=scene.surface.mapped(own), material=material)
 
 
-def _tint(scene: Scene, device: Device) -> Tint:
+def _tint(colored: Colored, drawn: Drawn, device: Device) -> Tint:
     from zeroset.rendering.tint import Tint
 
-    return Tint.of(scene, device)
+    return Tint.of(colored, drawn, device)
 
 
-def _palette(coloring: Coloring, scene: Scene, rays: Rays) -> Palette:
+def _palette(colored: Colored, rays: Rays) -> Palette:
     from zeroset.rendering.tint import Palette
 
-    return Palette.of(coloring, scene.surface, rays)
+    return Palette.of(colored, rays)
 
 
 def _smaller(layout: Layout, device: Device) -> Layout:

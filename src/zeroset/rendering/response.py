@@ -109,7 +109,8 @@ class Response:
         point = [found.t.fma(d, o) for o, d in zip(ray.origin, ray.direction, strict=True)]
         toward_eye = [-d for d in normalised(ray.direction)]
         number = material_at(self.builder, found.part)
-        albedo = None if found.value is None else by_value(self.builder, found.value)
+        several = None if found.part is None else number
+        albedo = None if found.value is None else by_value(self.builder, found.value, several)
         seen = face(number, found.normal, toward_eye, albedo)
         opacity = number("opacity") if optics.through else constant(1.0, F32)
         mirror = number("reflectance") if optics.mirror else constant(0.0, F32)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from zeroset.kernel import F32, U32, Kernel, KernelBuilder, Value, if_, load, store
 from zeroset.rendering.buffers import COLORS, LIT, NORMAL, PART, VALUE
 from zeroset.rendering.layout import pixel_coordinates, pixel_place
 from zeroset.rendering.materials import material_at
 from zeroset.rendering.shading import LIGHT, Lighting
 from zeroset.rendering.view import pixel_ray
-from zeroset.shade.albedo import Albedo
+from zeroset.shade.albedo import Albedo, two_sided
 from zeroset.shade.colormap import mapped
 from zeroset.shade.reflectance import blinn_phong, normalised
 from zeroset.shade.tone import encode, pack
@@ -41,8 +43,10 @@ def shade_kernel(lighting: Lighting, parts: int = 1, beams: bool = False) -> Ker
             toward_eye = [-d for d in normalised(ray.direction)]
             sources = _sources(builder, lighting, ray, lane)
             part = load(builder.buffer(PART, U32), lane) if parts > 1 else None
-            albedo = by_value(builder, load(builder.buffer(VALUE, F32), lane)) if lighting.colored else None
-            color = blinn_phong(material_at(builder, part), normal, toward_eye, sources, albedo)
+            material, albedo = material_at(builder, part), None
+            if lighting.colored:
+                albedo = by_value(builder, load(builder.buffer(VALUE, F32), lane), None if part is None else material)
+            color = blinn_phong(material, normal, toward_eye, sources, albedo)
             return tuple(encode(c) for c in color)
 
         color = pack(if_(hit, lit, lambda: background(builder)))
@@ -63,9 +67,13 @@ def background(builder: KernelBuilder) -> tuple[Value, ...]:
     return tuple(builder.uniform(f"background_{c}", F32) for c in "rgb")
 
 
-def by_value(builder: KernelBuilder, value: Value) -> Albedo:
-    """The albedo of a point that is coloured by a value: through the frame's colour map."""
-    return mapped(builder.buffer(COLORS, F32), lambda name: builder.uniform(name, F32), value)
+def by_value(builder: KernelBuilder, value: Value, material: Callable[[str], Value] | None) -> Albedo:
+    """The albedo of a point that is coloured by a value: through the frame's colour map.
+
+    ``material``: gives the numbers of the point's part, which may keep its own colours; None where there is one part.
+    """
+    own = None if material is None else two_sided(material)
+    return mapped(builder.buffer(COLORS, F32), lambda name: builder.uniform(name, F32), value, own)
 
 
 def _sources(builder: KernelBuilder, lighting: Lighting, ray: Ray, lane: Value) -> list[list[Value]]:

@@ -58,6 +58,16 @@ def _corner(value: Any) -> Any:
     return vector(value, "a corner")
 
 
+def blamed_coloring(data: Mapping[str, Any]) -> Path:
+    """Where a file says to colour by something, if it cannot: the first place, or the first that says otherwise."""
+    tables: list[tuple[Path, Any]] = [((), data)]
+    tables += [(("surfaces", i), table) for i, table in enumerate(data.get("surfaces", ()))]
+    given = [((*path, "material", "coloring"), table.get("material", {}).get("coloring")) for path, table in tables]
+    said = [(path, value) for path, value in given if value is not None]
+    path, value = next((each for each in said if each[1] != said[0][1]), said[0])
+    return (*path, "by") if isinstance(value, Mapping) else path
+
+
 def in_toml(hint: str) -> str:
     """A hint that speaks of Python's arguments, as a scene file has them.
 

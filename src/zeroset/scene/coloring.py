@@ -47,10 +47,11 @@ class Coloring:
 
     Attributes:
         by: ``gaussian-curvature`` (the product of the principal curvatures), ``mean-curvature`` (half their sum;
-            positive where the surface bends away from growing f, 1/r for a ball with f < 0 inside), ``gradient``
-            (the length of f's gradient), ``steps`` (evaluations of f for the ray), ``depth`` (distance along the
-            viewing direction), ``isovalue`` (which one it is, where there are several), or a formula in x, y, z, w and
-            the surface's parameters.
+            positive where the surface bends away from growing f, or from the outside of a solid, 1/r for a ball with
+            f < 0 inside), ``gradient`` (the length of f's gradient), ``steps`` (evaluations of f for the ray),
+            ``depth`` (distance along the viewing direction), ``isovalue`` (which one it is, of surfaces that have
+            some), or a formula in x, y, z, w and the surface's parameters. In solids and of several surfaces it is
+            that of the part that is seen; parts for which it means nothing keep their material's colours.
         map: a colour map: ``lagoon``, ``ember``, ``gray``, ``coolwarm``, ``earth`` or ``wheel``; None takes
             ``coolwarm`` for curvatures and ``lagoon`` for all else.
         range: values of the first and the last colour; None finds them from the picture: the 2nd and the 98th

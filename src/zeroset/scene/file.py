@@ -27,9 +27,9 @@ from pathlib import Path
 from typing import Any
 
 from zeroset.errors import SceneFileError, ZerosetError, did_you_mean
-from zeroset.scene.blame import blamed, in_toml
+from zeroset.scene.blame import blamed, blamed_coloring, in_toml
 from zeroset.scene.camera import Camera
-from zeroset.scene.colored import formula_of
+from zeroset.scene.colored import colored
 from zeroset.scene.coloring import Coloring
 from zeroset.scene.environment import Environment, as_environment
 from zeroset.scene.file_shapes import TOP, given, material_data, read_shapes, shapes_data
@@ -39,7 +39,7 @@ from zeroset.scene.lines import Lines, read_toml
 from zeroset.scene.lines import Path as KeyPath
 from zeroset.scene.places import for_folder, from_folder
 from zeroset.scene.scene import MOST_LIGHTS, Scene, Shown, as_scene
-from zeroset.scene.several import Drawable, colored_surface
+from zeroset.scene.several import Drawable
 
 KEYS = (*TOP, "background", "camera", "material", "lights", "shadows", "environment")
 LARGEST = 4_000_000
@@ -137,7 +137,7 @@ class _Reader:
             raise self.fail("lights must be a list of tables", "lights", ("write each as [[lights]]",))
         shape = read_shapes(self, data)
         camera = None if "camera" not in data else self.build(Camera, data["camera"], "the camera", ("camera",))
-        material = self._material(data.get("material", {}), shape)
+        material = self._material(data, shape)
         around = self._environment(data.get("environment"))
         for key in {"background", "shadows"} & set(data):
             self.kinds(data[key], (key,))
@@ -156,13 +156,10 @@ class _Reader:
                 around,
             )
 
-    def _material(self, data: Any, shape: Drawable) -> Material:
-        material = self.material(data, ("material",))
-        if material.coloring is not None:
-            known: Coloring = material.coloring
-            inside = ("by",) if isinstance(data["coloring"], Mapping) else ()
-            with _placing(self, lambda error: ("material", "coloring", *inside)):
-                formula_of(known, colored_surface(shape))
+    def _material(self, data: Mapping[str, Any], shape: Drawable) -> Material:
+        material = self.material(data.get("material", {}), ("material",))
+        with _placing(self, lambda error: blamed_coloring(data)):
+            colored(shape, material)
         return material
 
     def material(self, data: Any, path: KeyPath) -> Material:

@@ -31,7 +31,7 @@ from zeroset.scene.bounds import Ball, Bounds, parse_bounds
 from zeroset.scene.isovalues import isovalues_of
 from zeroset.scene.light import Material
 from zeroset.scene.lines import Path
-from zeroset.scene.scene import Scene
+from zeroset.scene.scene import check_parts
 from zeroset.scene.several import Drawable, Several, as_drawable
 from zeroset.scene.solid import Solid
 from zeroset.scene.solid_text import names_in, parse_solid, solid_text
@@ -96,8 +96,8 @@ def read_shapes(reader: Reader, data: Mapping[str, Any]) -> Drawable:
         return whole
     with reader.placing(lambda error: ("surfaces",)):
         made = as_drawable([*shapes.alone.values()])
-        # A scene knows how much it can show.
-        return Scene(made).surface
+        check_parts(made)
+        return made
 
 
 def _surface(reader: Reader, data: Mapping[str, Any], path: Path) -> Surface:

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 from zeroset.errors import ParameterError, ZerosetError
 from zeroset.scene.camera import Camera
 from zeroset.scene.light import DEFAULT_BACKGROUND, DEFAULT_LIGHTS, Color, Light, Material, color
-from zeroset.scene.several import Drawable, Several, as_drawable, colored_surface, plain_surface
+from zeroset.scene.several import Drawable, Several, as_drawable, plain_surface
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface, surface
 
 if TYPE_CHECKING:
+    from zeroset.scene.colored import Colored
+    from zeroset.scene.coloring import Coloring
     from zeroset.scene.environment import Environment
 
 MOST_LIGHTS = 32
@@ -56,15 +58,12 @@ class Scene:
         object.__setattr__(self, "surface", as_drawable(self.surface))
         if not isinstance(self.material, Material):
             raise ParameterError(f"a scene's material must be a Material, not {self.material!r}")
-        if len(self.materials) > MOST_PARTS:
-            raise ParameterError(f"a scene has at most {MOST_PARTS} surfaces and isovalues, not {len(self.materials)}")
+        check_parts(self.surface)
         if not isinstance(self.shadows, bool):
             raise ParameterError(f"a scene's shadows must be True or False, not {self.shadows!r}")
-        for material in self.materials:
-            if material.coloring is not None:
-                from zeroset.scene.colored import formula_of
-
-                formula_of(material.coloring, colored_surface(self.surface))
+        if self.coloring is not None:
+            # Whoever is coloured finds out here whether that can be.
+            _ = self.colored
         if self.environment is not None:
             # Imported where there is one, as colourings are: most pictures have neither.
             from zeroset.scene.environment import as_environment
@@ -84,6 +83,21 @@ class Scene:
         """The material of each part of what is drawn."""
         return self.surface.materials(self.material)
 
+    @property
+    def coloring(self) -> Coloring | None:
+        """What the picture is coloured by; None for nothing."""
+        return next((material.coloring for material in self.materials if material.coloring is not None), None)
+
+    @property
+    def colored(self) -> Colored | None:
+        """What the picture is coloured by, and which surfaces; None for nothing. Raises for what cannot be."""
+        if self.coloring is None:
+            return None
+        # Imported where there is one: most pictures are coloured by nothing.
+        from zeroset.scene.colored import colored
+
+        return colored(self.surface, self.material)
+
     def plain(self, what: str) -> Surface:
         """The surface f = 0, where that is all that is drawn; raises ``ParameterError`` where it is not.
 
@@ -91,6 +105,13 @@ class Scene:
             what: what takes only such a surface, for the error: ``"the window"``.
         """
         return plain_surface(self.surface, what)
+
+
+def check_parts(thing: Drawable) -> None:
+    """Raise ``ParameterError`` for more surfaces and isovalues than a scene can have."""
+    count = len(thing.materials(Material()))
+    if count > MOST_PARTS:
+        raise ParameterError(f"a scene has at most {MOST_PARTS} surfaces and isovalues, not {count}")
 
 
 Shown = Surface | Solid | Several | Scene | str | Sequence[Surface | Solid]

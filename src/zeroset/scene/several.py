@@ -119,8 +119,3 @@ def plain_surface(value: Drawable, what: str) -> Surface:
         f"{what} takes one surface f = 0, not {found}",
         hint="without that, zeroset render and zeroset view draw all of them",
     )
-
-
-def colored_surface(value: Drawable) -> Surface:
-    """The surface that a quantity is to colour; raises ``ParameterError`` for solids and several ones."""
-    return value if isinstance(value, Surface) else plain_surface(value, "colouring by a quantity")

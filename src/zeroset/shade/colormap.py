@@ -11,11 +11,13 @@ LARGEST = 1e36
 """Values stay within this, so that no kernel meets an infinity."""
 UNDEFINED = 3e38
 """Stands for a value that does not exist."""
+OWN = -3e38
+"""Stands for the value of a point that nothing colours: it keeps its material's colours."""
 STEPS = 256
 """Colours of a table; after the last one comes the colour of points without a value."""
 
 
-def mapped(table: Buffer, uniform: Callable[[str], Value], value: Value) -> Albedo:
+def mapped(table: Buffer, uniform: Callable[[str], Value], value: Value, own: Albedo | None = None) -> Albedo:
     """Both sides in the colour of a value.
 
     Args:
@@ -23,6 +25,7 @@ def mapped(table: Buffer, uniform: Callable[[str], Value], value: Value) -> Albe
         uniform: gives f32 numbers by name: ``color_low``, the value of the first colour; ``color_scale``, one over
             the range; ``color_wraps``, 1 where values beyond it begin again.
         value: f32; ``UNDEFINED`` for none.
+        own: the colours where it is ``OWN``; None where it never is.
     """
     known = abs(value) <= LARGEST
     share = (known.select(value, 0.0) - uniform("color_low")) * uniform("color_scale")
@@ -39,4 +42,7 @@ def mapped(table: Buffer, uniform: Callable[[str], Value], value: Value) -> Albe
         ends = [(load(table, at + i), load(table, at + step + i)) for i in range(3)]
         return [rest.fma(high - low, low) for low, high in ends]
 
-    return color
+    if own is None:
+        return color
+    keeps = value < -LARGEST
+    return lambda back: [keeps.select(a, b) for a, b in zip(own(back), color(back), strict=True)]

@@ -14,6 +14,7 @@ from typing import Any
 
 from zeroset.errors import ParameterError
 from zeroset.scene.bounds import Bounds, Box
+from zeroset.scene.coloring import Coloring
 from zeroset.scene.isovalues import PALETTE, isovalues_of
 from zeroset.scene.light import Material
 from zeroset.scene.surface import Surface, surface
@@ -106,6 +107,13 @@ def added(key: int, bounds: Bounds, before: int = 0) -> Item:
     box = Box((x - half, y - half, z - half), (x + half, y + half, z + half))
     color = PALETTE[key % len(PALETTE)]
     return Item(key, formula, surface(formula, {"c": float(f"{place:.2g}")}, box), Material(front=color, back=color))
+
+
+def recolored(item: Item, coloring: Coloring) -> Item:
+    """The same coloured by something else; one that nothing colours stays as it is."""
+    if item.material.coloring is None:
+        return item
+    return replace(item, material=replace(item.material, coloring=coloring))
 
 
 def span_of(item: Item, name: str) -> Span:

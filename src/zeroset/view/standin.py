@@ -26,8 +26,8 @@ def structure(shot: Shot) -> Structure:
     """What the kernels of a picture depend on."""
     # A picture that moves has no smooth edges, but both are compiled together.
     light = Lighting.of(shot.scene, Smooth(shot.antialias))
-    coloring = shot.scene.material.coloring
-    by = "" if coloring is None else coloring.by
+    colored = shot.scene.colored
+    by = "" if colored is None else f"{colored.coloring.by} {colored.shown}"
     return as_drawn(shot.scene.surface).shape.digest, shot.method.structure(), light, shot.device, by
 
 

@@ -14,12 +14,12 @@ from typing import Any
 from zeroset.scene.bounds import Bounds
 from zeroset.scene.camera import Camera, fit_camera
 from zeroset.scene.colored import suited
+from zeroset.scene.coloring import Coloring
 from zeroset.scene.environment import BUILT_IN, Environment
 from zeroset.scene.isovalues import MOST_ISOVALUES
 from zeroset.scene.light import DEFAULT_LIGHTS, Color, Light, Material
 from zeroset.scene.scene import MOST_PARTS, Scene
 from zeroset.scene.several import Drawable, Several
-from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 from zeroset.view import item as items
 from zeroset.view.item import Item
@@ -87,12 +87,23 @@ class State:
         """All surfaces; several have a material each, one has the scene's."""
         if not self.several:
             return self.item.drawn
-        return Several(tuple(item.drawn.with_material(_own(item.material)) for item in self.items))
+        return Several(tuple(item.drawn.with_material(_own(self._dressed(item))) for item in self.items))
+
+    @cached_property
+    def coloring(self) -> Coloring | None:
+        """What the picture is coloured by: the first coloring that means something for its surface."""
+        suiting = (suited(item.material.coloring, item.drawn) for item in self.items)
+        return next((coloring for coloring in suiting if coloring is not None), None)
+
+    def _dressed(self, item: Item) -> Material:
+        """A surface's material in this picture, which has one coloring for all that are coloured."""
+        coloring = None if item.material.coloring is None else self.coloring
+        return replace(item.material, coloring=coloring)
 
     @cached_property
     def scene(self) -> Scene:
         """What ``zs.render`` is given to make this picture."""
-        material = Material() if self.several else dressed(self.item.material, self.item.drawn)
+        material = Material() if self.several else self._dressed(self.item)
         return Scene(self.drawn, self.camera, material, self.lights, self.background, self.shadows, self.environment)
 
     @property
@@ -118,6 +129,11 @@ class State:
         """The state with another version of one of its surfaces."""
         return replace(self, items=tuple(item if item.key == known.key else known for known in self.items))
 
+    def colored_by(self, coloring: Coloring | None) -> State:
+        """The state with the chosen surface coloured by something, and with it all that are coloured already."""
+        state = self.edited(material=replace(self.item.material, coloring=coloring))
+        return state if coloring is None else _each(state, lambda item: items.recolored(item, coloring))
+
     def find(self, key: int) -> Item | None:
         """The surface with a key, if it is still there."""
         return next((item for item in self.items if item.key == key), None)
@@ -128,15 +144,8 @@ class State:
 
 
 def _own(material: Material) -> Material | None:
-    """The material of one of several surfaces, which nothing can colour by a quantity; None for the usual one."""
-    plain = replace(material, coloring=None)
-    return None if plain == Material() else plain
-
-
-def dressed(material: Material, surface: Surface) -> Material:
-    """The material as a surface can have it: without a formula to colour by that is not meant for it."""
-    coloring = suited(material.coloring, surface)
-    return material if coloring is material.coloring else replace(material, coloring=coloring)
+    """The material of one of several surfaces; None for the usual one."""
+    return None if material == Material() else material
 
 
 def opened(scene: Scene, texts: Sequence[str], method: Method, device: str, tolerance: float | None) -> State:

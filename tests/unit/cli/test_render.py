@@ -265,6 +265,36 @@ def test_colours_and_their_legend(zeroset: Run, tmp_path: Path) -> None:
     assert "colours: z from" in found.out
 
 
+TWO = """
+[[surfaces]]
+formula = "x^2 + y^2 + z^2 = 1"
+material = {coloring = "z"}
+[[surfaces]]
+formula = "z + 1"
+bounds = 2
+"""
+
+
+def test_one_coloured_surface_among_several(zeroset: Run, tmp_path: Path) -> None:
+    (tmp_path / "two.toml").write_text(TWO)
+    size = ("-s", "160", "-o", "t.png", "--legend", "--save-scene", "t.toml")
+    ran = zeroset("render", "two.toml", *size, "--map", "ember", "--range=-1,1", "--front", "red")
+    assert (ran.status, ran.err) == (0, "")
+    assert "colours: z from -1 to 1" in ran.out
+    scene = zs.load(tmp_path / "t.toml")
+    assert scene.coloring == zs.Coloring("z", "ember", (-1, 1))
+    assert scene.colored is not None
+    assert scene.colored.shown == (True, False)
+    seen = picture(tmp_path / "t.png")
+    red = (seen[..., 0] > 100) & (seen[..., 1] < 60) & (seen[..., 2] < 60)
+    assert np.count_nonzero(red) > 1000
+    ran = zeroset("render", "two.toml", *size, "--color-by", "mean-curvature")
+    assert (ran.status, ran.err) == (0, "")
+    scene = zs.load(tmp_path / "t.toml")
+    assert scene.colored is not None
+    assert scene.colored.shown == (True, True)
+
+
 @pytest.mark.parametrize(
     ("option", "value", "wrong"),
     [("--opacity", "2", "opacity"), ("--environment", "rom", "did you mean room"), ("--antialias", "0", "antialias")],

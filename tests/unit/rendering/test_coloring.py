@@ -370,12 +370,6 @@ def test_what_nothing_can_be_coloured_by(by: str, kind: type[Exception], said: s
         zs.render(RING, 16, color_by=by)
 
 
-def test_only_one_surface_is_coloured_by_a_quantity() -> None:
-    for shown in (RING - RING, [RING, RING]):
-        with pytest.raises(ParameterError, match="colouring by a quantity takes one surface f = 0"):
-            zs.render(shown, 16, color_by="depth")
-
-
 def test_a_material_of_its_own_is_coloured_too() -> None:
     own = RING.with_material(zs.Material(ambient=0.5))
     image = zs.render(own, 32, color_by="x", device="cpu")
@@ -403,5 +397,3 @@ def test_isovalues_are_coloured_by_other_quantities_too() -> None:
     assert np.nanmax(np.abs(curved - 1.0)) < 1e-3
     with pytest.raises(ParameterError, match="no isovalues"):
         zs.render(BALL, 16, color_by="isovalue")
-    with pytest.raises(ParameterError, match="not a solid"):
-        zs.render(BALL & RING, 16, color_by="gradient")

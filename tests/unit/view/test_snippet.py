@@ -72,6 +72,7 @@ def states() -> dict[str, State]:
         "isovalues": isovalues((0.3, 1.0)),
         "isovalues in colours": isovalues((1.0, 0.3), [(0, 1, 0), (0, 0, 1)]),
         "several": several(),
+        "one of several by a formula": several().colored_by(zs.Coloring("r*z", "ember")),
         "sampled": replace(plain(), method=zs.methods.AdaptiveMarchingPoints(steps=50, silhouettes=False)),
     }
 

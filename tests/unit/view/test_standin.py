@@ -129,3 +129,9 @@ def test_another_quantity_is_another_picture_to_compile() -> None:
     assert curved != standin.structure(SHOT)
     assert curved != standin.structure(by(zs.Coloring("a*x")))
     assert curved == standin.structure(by(zs.Coloring("gaussian-curvature", "earth", (0, 1))))
+
+
+def test_another_surface_that_is_coloured_is_another_picture_to_compile() -> None:
+    own = SURFACE.with_material(zs.Material(coloring=zs.Coloring("z")))
+    one, other = (replace(SHOT, scene=Scene(things)) for things in ([SURFACE, own], [own, SURFACE]))
+    assert standin.structure(one) != standin.structure(other)

@@ -146,11 +146,28 @@ def test_a_surface_more_and_one_less() -> None:
     assert one.scene.material == zs.Material(reflectance=0.25)
 
 
-def test_a_quantity_colours_a_surface_while_it_is_alone() -> None:
-    state = opened().edited(material=zs.Material(coloring="gaussian-curvature"))
-    more = states.with_another_item(state)
-    assert all(material.coloring is None for material in more.scene.materials)
-    assert states.without_item(more, 1).scene.material.coloring == zs.Coloring("gaussian-curvature")
+def test_a_quantity_colours_one_surface_among_others() -> None:
+    by, other = zs.Coloring("gaussian-curvature"), zs.Coloring("z", "ember")
+    state = states.with_another_item(opened().edited(material=zs.Material(coloring=by)))
+    assert [material.coloring for material in state.scene.materials] == [by, None]
+    assert states.without_item(state, 1).scene.material.coloring == by
+    # A picture has one coloring: another one is that of all that are coloured.
+    both = state.colored_by(other)
+    assert [material.coloring for material in both.scene.materials] == [other, other]
+    first = replace(both, chosen=0)
+    assert [material.coloring for material in first.colored_by(by).scene.materials] == [by, by]
+    assert [material.coloring for material in first.colored_by(None).scene.materials] == [None, other]
+    again = states.opened(both.scene, ("", ""), both.method, "auto", None)
+    assert again.scene == both.scene
+
+
+def test_a_formula_that_means_nothing_any_more_colours_nothing() -> None:
+    state = states.with_another_item(opened().colored_by(zs.Coloring("nobody*x")))
+    assert [material.coloring for material in state.scene.materials] == [None, None]
+    # The plane that was added has a parameter c.
+    by = zs.Coloring("c*x")
+    assert state.colored_by(by).scene.colored is not None
+    assert states.without_item(state.colored_by(by), 1).scene.coloring is None
 
 
 def test_isovalues_keep_the_users_order_and_the_surface_has_them_rising() -> None:

@@ -1,4 +1,4 @@
-"""What the surface is coloured by: a quantity or a formula, the colour map, and the range."""
+"""What the surface is coloured by, and with it all that are: a quantity or a formula, the colour map, and the range."""
 
 from __future__ import annotations
 
@@ -19,9 +19,6 @@ OWN, FORMULA, USUAL = "front and back", "a formula", "the usual"
 
 def draw(state: State, context: Context) -> State:
     """A list to choose from, and what goes with the choice."""
-    if state.several:
-        context.imgui.text_disabled("a surface alone can be coloured by a quantity")
-        return state
     imgui, before = context.imgui, state.item.material.coloring
     shown = OWN if before is None else before.by if before.by in QUANTITIES else FORMULA
     offered = [name for name in QUANTITIES if name != "isovalue" or state.item.levels]
@@ -35,7 +32,7 @@ def draw(state: State, context: Context) -> State:
         name = choice(imgui, "map", after.map or USUAL, (USUAL, *MAPS))
         after = replace(after, map=None if name == USUAL else name)
         after = _range(imgui, context, after)
-    return state if after == before else state.edited(material=replace(state.item.material, coloring=after))
+    return state if after == before else state.colored_by(after)
 
 
 def _formula(state: State, context: Context, coloring: Coloring) -> Coloring:
