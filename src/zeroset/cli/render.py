@@ -146,9 +146,11 @@ def _tell(image: Image, path: Path, spent: float, shown: Drawable) -> None:
         low, high = image.range
         click.echo(f"colours: {image.coloring.quantity.title} from {low:.4g} to {high:.4g}")
     if not image.hits:
-        proof = "certified: " if image.certified else ""
+        everywhere = all(surface.settled.field.continuous for surface in shown.surfaces)
+        proof = "certified: " if image.certified and everywhere else ""
+        beside = "" if everywhere else ", where f jumps or ends to have a value aside (for sqrt(g) = 0 write g = 0)"
         click.echo(
-            f"{proof}no ray meets a zero of f inside {shown.fitted}{_guess(shown)}; the picture is empty. "
+            f"{proof}no ray meets a zero of f inside {shown.fitted}{_guess(shown)}{beside}; the picture is empty. "
             "Try other --bounds, or another --eye.",
             err=True,
         )

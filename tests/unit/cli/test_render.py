@@ -84,6 +84,11 @@ def test_an_empty_picture_says_so(zeroset: Run, tmp_path: Path) -> None:
     ran = zeroset("render", "x^2 + y^2 + z^2 + 1", "-m", "marching-points", "-o", "a.png", "-s", "16")
     assert "no ray meets" in ran.err
     assert "certified" not in ran.err
+    # 0 where it ends to have a value: that is no certain emptiness.
+    ran = zeroset("render", "sqrt(1 - x^2 - y^2 - z^2)", "-o", "a.png", "-s", "16")
+    assert "no ray meets" in ran.err
+    assert "write g = 0" in ran.err
+    assert "certified" not in ran.err
 
 
 def test_methods_have_options(zeroset: Run) -> None:
