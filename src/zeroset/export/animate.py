@@ -14,6 +14,7 @@ from typing import Any
 
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ParameterError, did_you_mean
+from zeroset.export.film.claim import claimed
 from zeroset.export.film.frames import Frames, Pixels
 from zeroset.export.film.gif import DITHERS, FASTEST, write_gif
 from zeroset.export.film.movie import QUALITIES, write_mp4
@@ -147,20 +148,21 @@ def animate(
     chosen, where = resolve_method(method), get_device(device)
     pixels = render_size(size)
     kept = Frames(target.folder, _asked(scenes, pixels, chosen, tolerance, antialias), count)
-    kept.open(restart)
 
     def draw(one: Scene) -> bytes:
         return render(one, pixels, method=chosen, device=where, tolerance=tolerance, antialias=antialias).png()
 
-    try:
-        drawn = _draw(kept, scenes, draw, _part(progress, 0.0, DRAWING))
-        files = _assemble(target, kept, rate, quality, dither, _part(progress, DRAWING, 1.0))
-    except BaseException:
-        if not kept.kept():
+    with claimed(target.folder):
+        kept.open(restart)
+        try:
+            drawn = _draw(kept, scenes, draw, _part(progress, 0.0, DRAWING))
+            files = _assemble(target, kept, rate, quality, dither, _part(progress, DRAWING, 1.0))
+        except BaseException:
+            if not kept.kept():
+                kept.close()
+            raise
+        if not keep:
             kept.close()
-        raise
-    if not keep:
-        kept.close()
     return Movie(Path(path), files, count, float(rate), pixels, drawn)
 
 
@@ -225,7 +227,7 @@ def _assemble(
     if not target.movie:
         return tuple(_stills(target, kept, progress))
     # Made among the frames, where nobody else sees it and nothing of it is left, and copied to where it shall be.
-    scratch = kept.folder / f"movie.{target.kind}"
+    scratch = kept.folder / f"movie-{os.getpid()}.{target.kind}"
     if target.kind == "mp4":
         write_mp4(scratch, kept, rate, quality, progress)
     else:
@@ -245,5 +247,5 @@ def _stills(target: Target, kept: Frames, progress: Progress) -> Iterator[Path]:
         path = target.still(i, len(kept))
         pixels: Pixels | None = None if target.kind == "PNG" else kept[i]
         with replacing(path) as file:
-            file.write(kept.path(i).read_bytes() if pixels is None else encode(pixels, target.kind))
+            file.write(kept.png(i) if pixels is None else encode(pixels, target.kind))
         yield path
