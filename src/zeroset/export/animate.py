@@ -89,6 +89,8 @@ def animate(
     restart: bool = False,
     keep: bool = False,
     progress: Progress | None = None,
+    shadow_tolerance: float | None = None,
+    depth: int | None = None,
 ) -> Movie:
     """Draw a surface as it changes, into a movie or numbered pictures.
 
@@ -119,6 +121,8 @@ def animate(
         restart: throw away frames of another animation that are in the way, and begin anew.
         keep: leave the folder of frames there.
         progress: called now and then with the share that is done, from 0 to 1.
+        shadow_tolerance: as in ``render``.
+        depth: as in ``render``: how many surfaces a ray may meet after the first one.
 
     Raises:
         ZerosetError: and its kinds, before anything is drawn: for what does not move, what cannot be drawn and what
@@ -147,10 +151,16 @@ def animate(
     scenes = storyboard(scene, count, moving, params, camera, orbit or 0.0, closed)
     chosen, where = resolve_method(method), get_device(device)
     pixels = render_size(size)
-    kept = Frames(target.folder, _asked(scenes, pixels, chosen, tolerance, antialias), count)
+    options: dict[str, Any] = {
+        "tolerance": tolerance,
+        "antialias": antialias,
+        "shadow_tolerance": shadow_tolerance,
+        "depth": depth,
+    }
+    kept = Frames(target.folder, _asked(scenes, pixels, chosen, options), count)
 
     def draw(one: Scene) -> bytes:
-        return render(one, pixels, method=chosen, device=where, tolerance=tolerance, antialias=antialias).png()
+        return render(one, pixels, method=chosen, device=where, **options).png()
 
     with claimed(target.folder):
         kept.open(restart)
@@ -175,7 +185,7 @@ def render_size(size: tuple[int, int] | int) -> tuple[int, int]:
 
 
 def _asked(
-    scenes: Sequence[Scene], size: tuple[int, int], method: Method, tolerance: float | None, antialias: int
+    scenes: Sequence[Scene], size: tuple[int, int], method: Method, options: Mapping[str, Any]
 ) -> dict[str, Any]:
     """All that a frame depends on; what it is called is what a user is told has changed."""
     from zeroset import __version__
@@ -185,8 +195,7 @@ def _asked(
         "frames": len(scenes),
         "size": f"{size[0]}x{size[1]}",
         "method": repr(method),
-        "tolerance": tolerance,
-        "antialias": antialias,
+        **options,
         "version": __version__,
         "values": digest(scenes),
     }

@@ -145,6 +145,14 @@ BAD = [
     ([BALL, "--back", "red", "--isovalues", "0,0.1"], ["not seen", "isovalue"]),
     ([BALL, "--light", "1,2"], ["cannot read the light '1,2'", "--light"]),
     ([BALL, "--light", "0,0,0"], ["direction must not be zero"]),
+    ([BALL, "--lamp", "1,2"], ["cannot read the lamp '1,2'", "--lamp=-1,0.5,2"]),
+    ([BALL, "--lamp", "1,2,nan"], ["a light's position", "finite"]),
+    ([BALL, *["--lamp=1,2,3"] * 33], ["at most 32 lights"]),
+    ([BALL, "--depth", "3"], ["nothing mirrors or is transparent", "--reflectance"]),
+    ([BALL, "--depth", "33", "--reflectance", "0.5"], ["from 0 to 32"]),
+    ([BALL, "--depth", "many", "--reflectance", "0.5"], ["many"]),
+    ([BALL, "--shadow-tolerance", "0.1"], ["there are no shadows", "add --shadows"]),
+    ([BALL, "--shadow-tolerance", "-1", "--shadows"], ["the shadow tolerance must be at least"]),
     ([BALL, "--samples", "0"], ["samples"]),
     ([BALL, "--samples", "4", "--antialias", "4"], ["antialias"]),
     (["x + a", "-p", "a=inf"], ["finite"]),
@@ -228,6 +236,37 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
     assert sunny.material.back == (1.0, 0.0, 0.0)
     assert [(light.direction, light.headlight) for light in sunny.lights] == [((1, -1, 2), False), ((-1, 0, 0), False)]
     assert zs.load(tmp_path / "sky.toml").environment is not None
+
+
+def test_lamps_depth_and_coarse_shadows(zeroset: Run, tmp_path: Path) -> None:
+    looks = {
+        "a": ("--light=1,-1,2", "--lamp", "0,-4,5", "--lamp=-3,0,1", "--shadows"),
+        "b": ("--light=1,-1,2", "--lamp", "0,-4,5", "--lamp=-3,0,1", "--shadows", "--shadow-tolerance", "0.3"),
+        "c": ("--reflectance", "0.5", "--environment", "room"),
+        "d": ("--reflectance", "0.5", "--environment", "room", "--depth", "0"),
+    }
+    drawn = {}
+    for name, options in looks.items():
+        ran = zeroset("render", "tangle", "-o", f"{name}.png", "-s", "48", "--save-scene", f"{name}.toml", *options)
+        assert (ran.status, ran.err) == (0, "")
+        drawn[name] = picture(tmp_path / f"{name}.png")
+    lights = zs.load(tmp_path / "a.toml").lights
+    assert [(light.direction, light.position, light.headlight) for light in lights[:1]] == [((1, -1, 2), None, False)]
+    assert [(light.position, light.headlight) for light in lights[1:]] == [((0, -4, 5), False), ((-3, 0, 1), False)]
+    room = zs.load(tmp_path / "c.toml")
+    assert np.array_equal(drawn["a"], zs.render(zs.load(tmp_path / "a.toml"), 48).pixels)
+    assert np.array_equal(drawn["b"], zs.render(zs.load(tmp_path / "b.toml"), 48, shadow_tolerance=0.3).pixels)
+    assert np.array_equal(drawn["d"], zs.render(room, 48, depth=0).pixels)
+    assert not np.array_equal(drawn["a"], drawn["b"])
+    assert not np.array_equal(drawn["c"], drawn["d"])
+
+
+def test_shadows_of_a_scene_file_can_be_left_out(zeroset: Run, tmp_path: Path) -> None:
+    more = ("-s", "16", "-o", "a.png", "--save-scene")
+    assert zeroset("render", "tangle", "--shadows", *more, "a.toml").status == 0
+    assert zeroset("render", "a.toml", *more, "b.toml").status == 0
+    assert zeroset("render", "a.toml", "--no-shadows", *more, "c.toml").status == 0
+    assert [zs.load(tmp_path / f"{name}.toml").shadows for name in "abc"] == [True, True, False]
 
 
 def test_numbers_as_people_write_them(zeroset: Run, tmp_path: Path) -> None:
