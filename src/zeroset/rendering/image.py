@@ -83,6 +83,7 @@ class Image:
         pixels: (height, width, 3) uint8, sRGB.
         certified: whether the method proves its answers.
         coloring: what the surface is coloured by; None for nothing.
+        values: the values of what it is coloured by, where there are a few alone: isovalues.
 
     Example:
         >>> import zeroset as zs
@@ -99,10 +100,12 @@ class Image:
         outputs: GBuffer | Assembled,
         certified: bool,
         coloring: Coloring | None = None,
+        values: tuple[float, ...] = (),
     ) -> None:
         self.size = size
         self.certified = certified
         self.coloring = coloring
+        self.values = values
         self._outputs = outputs
 
     @cached_property
@@ -184,7 +187,11 @@ class Image:
         hair = np.inf if self.coloring.cyclic else 1e-5 * (high - low)
         below, above = bool(np.any(known < low - hair)), bool(np.any(known > high + hair))
         missing = len(known) < len(values)
-        key = Key(self.coloring.quantity.title, self.coloring.chosen_map, (low, high), below, above, missing)
+        if self.values:
+            # Each has a block, which shows what colour it has beyond an end.
+            below = above = False
+        title, map_ = self.coloring.quantity.title, self.coloring.chosen_map
+        key = Key(title, map_, (low, high), below, above, missing, self.values)
         return with_legend(self.pixels, key)
 
     def save(self, path: str | os.PathLike[str], legend: bool = False) -> Path:

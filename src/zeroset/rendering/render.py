@@ -161,7 +161,8 @@ def render(
             with part.lock:
                 share = part_of(progress, i, len(parts))
                 outputs.add(band, part.draw(shown, own, thin, share, draft, light, materials, palette, beams))
-    return Image((layout.width, layout.height), outputs, chosen.certified, coloring)
+    few = scene.surface.surfaces[0].isovalues if coloring is not None and coloring.by == "isovalue" else ()
+    return Image((layout.width, layout.height), outputs, chosen.certified, coloring, few)
 
 
 def _colored(scene: Scene, coloring: Coloring | None) -> Scene:
