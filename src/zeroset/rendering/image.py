@@ -142,13 +142,12 @@ class Image:
                 several surfaces, isovalues or surfaces of a solid; 0 where there is one alone), or ``value``, the
                 quantity that the surface is coloured by (nan where there is none).
         """
-        if name == VALUE and self.coloring is None:
+        if isinstance(name, str) and name == VALUE and self.coloring is None:
             raise ZerosetError("there is no value: the surface is not coloured by any", hint=_COLOR)
-        if name not in self.outputs:
-            known = self.outputs
-            raise ZerosetError(
-                f"there is no output {name!r}", hints=(*did_you_mean(name, known), f"there are {', '.join(known)}")
-            )
+        known = self.outputs
+        if not isinstance(name, str) or name not in known:
+            hints = (*did_you_mean(str(name), known), f"there are {', '.join(known)}")
+            raise ZerosetError(f"there is no output {name!r}", hints=hints)
         if name == VALUE:
             values = self._outputs.rows(VALUE)
             return np.where(np.abs(values) <= LARGEST, values, np.float32(np.nan))
