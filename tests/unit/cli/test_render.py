@@ -113,6 +113,15 @@ BAD = [
     (["+".join(["x"] * 1_000_000)], ["at most"]),
     (["+".join(f"sin({i}x)" for i in range(2000))], ["too many operations"]),
     (["barth-sextik"], ["did you mean barth-sextic"]),
+    (["foo"], ['the gallery has no surface "foo"']),
+    (["sinx"], ["unknown name sinx", "  sinx\n", "^", "did you mean sin(x)?"]),
+    (["sinx / pi"], ["unknown name sinx", "did you mean sin(x)?"]),
+    (["cos2x-y"], ["unknown name cos2x", "did you mean cos(2x)?"]),
+    (["pi"], ["none of the variables"]),
+    (["foo.png"], ["'foo.png' is neither a formula nor a scene file", "end in .toml", "zeroset gallery"]),
+    (["models/Cup.HF"], ["'models/Cup.HF' is neither", "end in .toml"]),
+    ([__file__], ["is neither a formula nor a scene file"]),
+    (["x.y"], ["the character . cannot stand here"]),
     (["none.toml"], ["No such file", "in none.toml"]),
     ([BALL, "-o", "none/a.png"], ["cannot write 'none/a.png'", "no folder"]),
     ([BALL, "-o", "."], ["cannot"]),
@@ -127,6 +136,7 @@ BAD = [
     ([BALL, "-s", "big"], ["cannot read the size"]),
     ([BALL, "-b", "0"], ["radius"]),
     ([BALL, "-b", "nan"], ["finite"]),
+    ([BALL, "-b", "1e15"], ["at least 1e-15 and below 1e+15"]),
     ([BALL, "-b", "1,2"], ["cannot read the bounds"]),
     ([BALL, "-b", "0,0,0,1,1,0"], ["empty"]),
     ([BALL, "-t", "-1"], ["tolerance"]),
@@ -134,6 +144,8 @@ BAD = [
     ([BALL, "-d", "cpuu"], ["no device 'cpuu'", "did you mean cpu"]),
     ([BALL, "-p", "a=1"], ["no parameter 'a'"]),
     (["x = a", "-p", "a=pie"], ["cannot read the parameter"]),
+    (["x = a", "-p", "a=pi/0"], ["cannot read the parameter 'a=pi/0'"]),
+    (["x = a", "-p", "a=1,2/0.0"], ["cannot read the parameter"]),
     ([BALL, "-p", "a"], ["cannot read the parameter", "name=number"]),
     ([BALL, "-p", "a=1", "-p", "a=2"], ["the parameter a is given twice"]),
     ([BALL, "--ior", "1.3"], ["none is transparent", "--opacity"]),
@@ -202,6 +214,23 @@ def test_a_mistake_in_a_scene_file_has_file_and_line(text: str, said: str, zeros
     assert ran.status == 2
     assert said in ran.err
     assert not (tmp_path / "out.png").exists()
+
+
+def test_a_scene_file_may_begin_with_a_byte_order_mark(zeroset: Run, tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_bytes(b'\xef\xbb\xbfformula = "x"\nbounds = 2.0\n')
+    assert zeroset("render", "s.toml", "-s", "16", "-o", "a.png").status == 0
+    (tmp_path / "s.toml").write_bytes(b'\xef\xbb\xbfformula = "x"\nbounds = -2.0\n')
+    ran = zeroset("render", "s.toml", "-o", "a.png")
+    assert ran.status == 2
+    assert "s.toml:2" in ran.err
+
+
+def test_a_scene_file_without_its_suffix_is_no_formula(zeroset: Run, tmp_path: Path) -> None:
+    for name in ("scene.txt2", "scene"):
+        (tmp_path / name).write_text('formula = "x"')
+        ran = zeroset("render", name if "." in name else f"./{name}", "-o", "a.png")
+        assert ran.status == 2
+        assert "is neither a formula nor a scene file" in ran.err
 
 
 def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
