@@ -1,12 +1,13 @@
 """The command line: ``zeroset render FORMULA -o out.png`` and its fellows, one file a command.
 
 Commands are loaded when they are called for. Every mistake of a user ends in one clear message on stderr and exit
-status 2, an interruption in 130; there is no traceback for either.
+status 2, an interruption in 130, what cannot be printed in 1; there is no traceback for any of them.
 """
 
 from __future__ import annotations
 
 import atexit
+import errno
 import gc
 import importlib
 import os
@@ -29,6 +30,10 @@ COMMANDS = {
     "bench": "Time the gallery on this machine.",
     "doctor": "Say what this machine offers and what is missing.",
 }
+
+
+UNWRITTEN = (errno.ENOSPC, errno.EIO, errno.EBADF, errno.EFBIG, errno.EDQUOT, errno.EPIPE)
+"""What systems say of output that cannot be written."""
 
 
 class _Lazy(click.Group):
@@ -70,8 +75,32 @@ def main(args: list[str] | None = None) -> int:
     # while everything else is being loaded. A command has no matrices that are worth it.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
+        status = _run(args)
+        if sys.stdout is not None:
+            sys.stdout.flush()
+        elif status == 0:
+            return _unwritten("it is closed")
+    except OSError as error:
+        # Files that cannot be written are errors of our own: what is left is what we print.
+        if error.filename is not None or error.errno not in UNWRITTEN:
+            raise
+        # What is still in the buffer goes nowhere.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # Where its reader has gone (`zeroset gallery | head`), that is no error.
+        return 0 if error.errno == errno.EPIPE else _unwritten(error.strerror or str(error))
+    return status
+
+
+def _unwritten(reason: str) -> int:
+    """Say why what was printed cannot be read by anybody; gives the exit status."""
+    click.echo(f"error: cannot write to the standard output: {reason}", err=True)
+    return 1
+
+
+def _run(args: list[str] | None) -> int:
+    """Run a command; gives the exit status."""
+    try:
         zeroset.main(args, prog_name="zeroset", standalone_mode=False)
-        sys.stdout.flush()
     except ZerosetError as error:
         click.echo(f"error: {as_options(str(error))}", err=True)
         return 2
@@ -84,10 +113,6 @@ def main(args: list[str] | None = None) -> int:
     except MemoryError:
         click.echo("error: there is not enough memory for this\n  hint: try a smaller --size or --resolution", err=True)
         return 1
-    except BrokenPipeError:
-        # The reader of our output has gone (`zeroset gallery | head`). What is still in the buffer goes nowhere.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
     return 0
 
 

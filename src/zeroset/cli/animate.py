@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from zeroset.cli.look import look_options, tracing, with_look
 from zeroset.cli.progress import Progress
 from zeroset.cli.source import FormulaCommand, find_scene, read_method, read_size, read_triple, surface_options
 from zeroset.errors import CameraError, ParameterError, ZerosetError
@@ -52,7 +53,7 @@ def _list(context: click.Context, option: click.Parameter, wanted: bool) -> None
 @click.option("--fps", type=float, default=30.0, show_default=True, help="Frames a second.")
 @click.option("-s", "--size", default="640x480", show_default=True, help="Pixels: 800 or 1280x720.")
 @click.option("-t", "--tolerance", type=float, help="World length to which roots are found.")
-@click.option("--shadows/--no-shadows", default=None, help="Whether lights throw shadows.")
+@look_options
 @click.option("--antialias", type=int, default=1, help="Rays of each pixel at an edge; 16 makes edges smooth.")
 @click.option("--quality", default="good", show_default=True, help="Of an MP4: small, good or best.")
 @click.option("--dither", default="none", show_default=True, help="Of a GIF: none or diffused.")
@@ -76,12 +77,12 @@ def command(
     fps: float,
     size: str,
     tolerance: float | None,
-    shadows: bool | None,
     antialias: int,
     quality: str,
     dither: str,
     restart: bool,
     keep: bool,
+    **look: Any,
 ) -> None:
     """Draw SOURCE as it changes: a formula, a gallery name, a scene file, or an animation of --list.
 
@@ -97,6 +98,7 @@ def command(
     for name in moving.keys() & {text.partition("=")[0].strip() for text in params}:
         raise ParameterError(f"{name} has a value and is to move", hint=f"leave out -p {name}=... or --vary {name}=...")
     named, scene = _find(source, params, bounds, moving)
+    scene = with_look(scene, look)
     if named is not None:
         moving = {**named.vary, **moving}
         orbit = named.orbit if orbit is None else orbit
@@ -107,8 +109,8 @@ def command(
         with Progress("drawing frames") as progress:
             movie = animate(
                 scene, output, moving, None, cameras, orbit, frames, duration, fps, read_size(size),
-                read_method(method), device, tolerance, shadows, antialias, quality, dither,
-                restart=restart, keep=keep, progress=progress,
+                read_method(method), device, tolerance, None, antialias, quality, dither,
+                restart=restart, keep=keep, progress=progress, **tracing(look),
             )  # fmt: skip
     except KeyboardInterrupt:
         _tell_kept(output)

@@ -1,4 +1,4 @@
-"""Options that say how a surface looks: shadows, surroundings, its material, and what it is coloured by."""
+"""Options that say how a surface looks: lights and shadows, surroundings, its material, what it is coloured by."""
 
 from __future__ import annotations
 
@@ -19,14 +19,17 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 MATERIAL = ("opacity", "reflectance", "ior")
+TRACING = ("depth", "shadow_tolerance")
 OPTIONS = (
     *paint.OPTIONS,
-    click.option("--shadows", is_flag=True, help="Lights throw shadows."),
+    click.option("--shadows/--no-shadows", default=None, help="Whether lights throw shadows."),
+    click.option("--shadow-tolerance", type=float, help="World length to which shadows are found."),
     click.option("--environment", metavar="sky|room|FILE", help="What is seen all around. Six FILEs: sky_{face}.png"),
     click.option("--opacity", type=float, help="1 for solid; below, what lies behind is seen through it."),
     click.option("--last-solid", is_flag=True, help="Seen through only where another surface lies behind."),
     click.option("--reflectance", type=float, help="Share of the light that is mirrored, 0 to 1."),
     click.option("--ior", type=float, help="Index of refraction of the inside; with an opacity below 1."),
+    click.option("--depth", type=int, help="Surfaces that a ray may meet after its first: behind glass, in mirrors."),
     click.option(
         "--color-by",
         metavar="QUANTITY|FORMULA",
@@ -39,7 +42,7 @@ OPTIONS = (
 
 
 def look_options(function: F) -> F:
-    """The options of this file; a command takes them as ``**look``."""
+    """The options of this file; a command takes them as ``**look``, and hands ``TRACING`` of them to the picture."""
     for option in reversed(OPTIONS):
         function = option(function)
     return function
@@ -71,10 +74,27 @@ def with_look(scene: Scene, look: dict[str, Any]) -> Scene:
             hint="try --opacity 0.3",
         )
     around = look["environment"] or scene.environment
-    shadows = look["shadows"] or scene.shadows
+    shadows = scene.shadows if look["shadows"] is None else look["shadows"]
     scene = dataclasses.replace(scene, surface=shown, material=material, environment=around, shadows=shadows)
     paint.check_sides(scene, colors)
+    _check_tracing(scene, look)
     return paint.painted(scene, look)
+
+
+def tracing(look: dict[str, Any]) -> dict[str, Any]:
+    """Those of the options that are no part of a scene, as ``render`` and ``animate`` take them."""
+    return {name: look[name] for name in TRACING}
+
+
+def _check_tracing(scene: Scene, look: dict[str, Any]) -> None:
+    """Raise where such an option would do nothing."""
+    if look["shadow_tolerance"] is not None and not scene.shadows:
+        raise ParameterError("there is a --shadow-tolerance, and there are no shadows", hint="add --shadows")
+    if look["depth"] is not None and all(each.opacity >= 1 and each.reflectance <= 0 for each in scene.materials):
+        raise ParameterError(
+            "--depth is about rays that go on, and none does: nothing mirrors or is transparent",
+            hint="try --reflectance 0.5 or --opacity 0.3",
+        )
 
 
 def _coloring(coloring: Coloring | None, look: dict[str, Any]) -> Coloring | None:

@@ -11,6 +11,7 @@ import click
 from zeroset.errors import ParameterError
 
 if TYPE_CHECKING:
+    from zeroset.scene.bounds import Vector
     from zeroset.scene.light import Color, Light
     from zeroset.scene.scene import Scene
 
@@ -24,6 +25,7 @@ OPTIONS = (
         multiple=True,
         help="Direction to a light far away, instead of lights that go with the camera; may be repeated.",
     ),
+    click.option("--lamp", metavar="X,Y,Z", multiple=True, help="Place of a lamp, likewise; beside any --light."),
 )
 
 
@@ -57,21 +59,26 @@ def painted(scene: Scene, look: dict[str, Any]) -> Scene:
         if scene.environment is not None:
             raise ParameterError("the surroundings hide the background", hint="leave out --environment or --background")
         scene = dataclasses.replace(scene, background=read_color(look["background"], "--background"))
-    return dataclasses.replace(scene, lights=_lights(look["light"])) if look["light"] else scene
+    lights = _lights(look["light"], look["lamp"])
+    return dataclasses.replace(scene, lights=lights) if lights else scene
 
 
-def _lights(texts: Sequence[str]) -> tuple[Light, ...]:
+def _lights(directions: Sequence[str], places: Sequence[str]) -> tuple[Light, ...]:
+    """Lights that stay where they are: those far away, then those at a place."""
     from zeroset.scene.light import Light
 
-    lights = []
-    for text in texts:
-        try:
-            x, y, z = (float(part) for part in text.split(","))
-        except ValueError:
-            hint = "write three numbers: --light=-1,0.5,2"
-            raise ParameterError(f"cannot read the light {text!r}", hint=hint) from None
-        lights.append(Light(direction=(x, y, z), headlight=False))
-    return tuple(lights)
+    far = (Light(direction=_triple(text, "light"), headlight=False) for text in directions)
+    near = (Light(position=_triple(text, "lamp"), headlight=False) for text in places)
+    return (*far, *near)
+
+
+def _triple(text: str, what: str) -> Vector:
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        hint = f"write three numbers: --{what}=-1,0.5,2"
+        raise ParameterError(f"cannot read the {what} {text!r}", hint=hint) from None
+    return x, y, z
 
 
 def check_sides(scene: Scene, changes: dict[str, Color]) -> None:

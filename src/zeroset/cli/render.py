@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from zeroset.cli.look import look_options, with_look
+from zeroset.cli.look import look_options, tracing, with_look
 from zeroset.cli.progress import Progress
 from zeroset.cli.source import (
     FormulaCommand,
@@ -106,6 +106,7 @@ def command(
             antialias=antialias,
             samples=samples,
             progress=progress,
+            **tracing(look),
         )
     spent = time.perf_counter() - begin
     _save(image, scene, path, legend, save_scene, save_outputs)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from zeroset.cli.words import check_no_file, spelled
 from zeroset.errors import BoundsError, CameraError, ParameterError, ZerosetError
 from zeroset.scene.bounds import Bounds, Box, parse_bounds
 from zeroset.scene.camera import Camera, fit_camera
@@ -32,6 +33,7 @@ def find_scene(source: str, params: tuple[str, ...] = (), bounds: str | None = N
         from zeroset.scene.file import load
 
         return _changed(load(source), values, limits)
+    check_no_file(source)
     # A gallery name has only letters, digits and hyphens, and its first part two letters or a digit alone (4-bretzel).
     if (
         re.fullmatch(r"([a-z]{2,}[a-z0-9]*|\d+-[a-z]{2,})(-[a-z0-9.]+)*", source)
@@ -44,7 +46,6 @@ def find_scene(source: str, params: tuple[str, ...] = (), bounds: str | None = N
 def _named(name: str, values: dict[str, Any]) -> Scene | None:
     """The gallery's surface; None for a word that may well be a formula (``xyz``, or ``ab-x`` with a value for ab)."""
     from zeroset.errors import UnknownSurfaceError
-    from zeroset.expr import VARIABLES
     from zeroset.shelf import gallery
     from zeroset.surfaces import solid_names
 
@@ -54,7 +55,7 @@ def _named(name: str, values: dict[str, Any]) -> Scene | None:
         return Scene(gallery[name])
     except UnknownSurfaceError:
         words = re.findall(r"[a-z]+", name)
-        if all(word in values or set(word) <= set(VARIABLES) for word in words):
+        if all(word in values or spelled(word) for word in words):
             return None
         raise
 

@@ -14,6 +14,7 @@ from typing import Any
 
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError, ParameterError, did_you_mean
+from zeroset.export.film.claim import claimed
 from zeroset.export.film.frames import Frames, Pixels
 from zeroset.export.film.gif import DITHERS, FASTEST, write_gif
 from zeroset.export.film.movie import QUALITIES, write_mp4
@@ -88,6 +89,8 @@ def animate(
     restart: bool = False,
     keep: bool = False,
     progress: Progress | None = None,
+    shadow_tolerance: float | None = None,
+    depth: int | None = None,
 ) -> Movie:
     """Draw a surface as it changes, into a movie or numbered pictures.
 
@@ -118,6 +121,8 @@ def animate(
         restart: throw away frames of another animation that are in the way, and begin anew.
         keep: leave the folder of frames there.
         progress: called now and then with the share that is done, from 0 to 1.
+        shadow_tolerance: as in ``render``.
+        depth: as in ``render``: how many surfaces a ray may meet after the first one.
 
     Raises:
         ZerosetError: and its kinds, before anything is drawn: for what does not move, what cannot be drawn and what
@@ -146,21 +151,28 @@ def animate(
     scenes = storyboard(scene, count, moving, params, camera, orbit or 0.0, closed)
     chosen, where = resolve_method(method), get_device(device)
     pixels = render_size(size)
-    kept = Frames(target.folder, _asked(scenes, pixels, chosen, tolerance, antialias), count)
-    kept.open(restart)
+    options: dict[str, Any] = {
+        "tolerance": tolerance,
+        "antialias": antialias,
+        "shadow_tolerance": shadow_tolerance,
+        "depth": depth,
+    }
+    kept = Frames(target.folder, _asked(scenes, pixels, chosen, options), count)
 
     def draw(one: Scene) -> bytes:
-        return render(one, pixels, method=chosen, device=where, tolerance=tolerance, antialias=antialias).png()
+        return render(one, pixels, method=chosen, device=where, **options).png()
 
-    try:
-        drawn = _draw(kept, scenes, draw, _part(progress, 0.0, DRAWING))
-        files = _assemble(target, kept, rate, quality, dither, _part(progress, DRAWING, 1.0))
-    except BaseException:
-        if not kept.kept():
+    with claimed(target.folder):
+        kept.open(restart)
+        try:
+            drawn = _draw(kept, scenes, draw, _part(progress, 0.0, DRAWING))
+            files = _assemble(target, kept, rate, quality, dither, _part(progress, DRAWING, 1.0))
+        except BaseException:
+            if not kept.kept():
+                kept.close()
+            raise
+        if not keep:
             kept.close()
-        raise
-    if not keep:
-        kept.close()
     return Movie(Path(path), files, count, float(rate), pixels, drawn)
 
 
@@ -173,7 +185,7 @@ def render_size(size: tuple[int, int] | int) -> tuple[int, int]:
 
 
 def _asked(
-    scenes: Sequence[Scene], size: tuple[int, int], method: Method, tolerance: float | None, antialias: int
+    scenes: Sequence[Scene], size: tuple[int, int], method: Method, options: Mapping[str, Any]
 ) -> dict[str, Any]:
     """All that a frame depends on; what it is called is what a user is told has changed."""
     from zeroset import __version__
@@ -183,8 +195,7 @@ def _asked(
         "frames": len(scenes),
         "size": f"{size[0]}x{size[1]}",
         "method": repr(method),
-        "tolerance": tolerance,
-        "antialias": antialias,
+        **options,
         "version": __version__,
         "values": digest(scenes),
     }
@@ -225,7 +236,7 @@ def _assemble(
     if not target.movie:
         return tuple(_stills(target, kept, progress))
     # Made among the frames, where nobody else sees it and nothing of it is left, and copied to where it shall be.
-    scratch = kept.folder / f"movie.{target.kind}"
+    scratch = kept.folder / f"movie-{os.getpid()}.{target.kind}"
     if target.kind == "mp4":
         write_mp4(scratch, kept, rate, quality, progress)
     else:
@@ -245,5 +256,5 @@ def _stills(target: Target, kept: Frames, progress: Progress) -> Iterator[Path]:
         path = target.still(i, len(kept))
         pixels: Pixels | None = None if target.kind == "PNG" else kept[i]
         with replacing(path) as file:
-            file.write(kept.path(i).read_bytes() if pixels is None else encode(pixels, target.kind))
+            file.write(kept.png(i) if pixels is None else encode(pixels, target.kind))
         yield path

@@ -13,7 +13,7 @@ from zeroset.export.marching.extract import Pieces, extract
 from zeroset.export.marching.lattice import Lattice, make_lattice
 from zeroset.export.marching.programs import Programs
 from zeroset.export.marching.rim import cut_at_rim
-from zeroset.export.marching.roots import BEYOND
+from zeroset.export.marching.roots import BEYOND, WITHIN
 from zeroset.export.marching.weld import Indices, compact, torn, weld
 from zeroset.export.triangles import Mesh, doubled_normals, joined
 from zeroset.kernel.types import F32, F64, Type
@@ -93,7 +93,7 @@ def _meshed(
         pieces = extract(programs, lattice, progress, exclude=False)
     result = _assembled(programs, lattice, pieces)
     if not len(result.faces):
-        raise _nothing(shown, len(pieces.vertices), cells)
+        raise _nothing(shown, pieces.kinds, cells)
     return result
 
 
@@ -143,12 +143,15 @@ def _precision(value: str, device: Device) -> Type:
     return F64 if value != "f32" and device.supports(F64) else F32
 
 
-def _nothing(surface: Surface, changes: int, cells: int) -> BoundsError:
-    """Why there is no mesh."""
-    if changes:
+def _nothing(surface: Surface, kinds: npt.NDArray[np.uint32], cells: int) -> BoundsError:
+    """Why there is no mesh; ``kinds``: of the roots that edges have, without a triangle between them."""
+    touched = bool((kinds == WITHIN).any())
+    if len(kinds) and not touched:
         return BoundsError(f"f changes its sign inside {surface.fitted} at poles and bounds alone: there is no surface")
+    # A corner of the lattice where f is 0 counts as inside, whatever f does around it.
+    does = "is 0 but does not change its sign" if touched else "does not change its sign"
     return BoundsError(
-        f"f does not change its sign inside {surface.fitted} on {cells} cells a side: there is nothing to mesh",
+        f"f {does} inside {surface.fitted} on {cells} cells a side: there is nothing to mesh",
         hints=(
             "try other bounds, as in bounds=3.0, or a finer resolution",
             "a mesh is where f changes its sign: of f = g^2 mesh g",

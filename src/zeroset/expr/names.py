@@ -122,8 +122,10 @@ class Names:
         parts = self._split(name)
         if len(parts) > 1:
             hints.append(f"for a product write {'*'.join(parts)}")
+        called = self._called(name)
         known = {*VARIABLES, *CONSTANTS, *self.params}
-        hints += did_you_mean(name, {*known, *FUNCTIONS, *DERIVED} if len(name) > 1 else known)
+        near = did_you_mean(name, {*known, *FUNCTIONS, *DERIVED} if len(name) > 1 else known)
+        hints += [f"did you mean {called}?"] if called else near
         if name in self.arrays:
             hints.append(f"{name} is an array: use its elements in a sum, sum(i, ... {name}[i] ...)")
         hints.append(f"give it a value: params={{'{name}': 1.0}}")
@@ -134,6 +136,14 @@ class Names:
             position=position,
             hints=hints,
         )
+
+    def _called(self, name: str) -> str:
+        """A name that is a function's and what it is of, as in sinx, with the parentheses; or nothing."""
+        for cut in range(len(name) - 1, 0, -1):
+            digits, rest = re.fullmatch(r"(\d*)(.*)", name[cut:]).groups()  # type: ignore[union-attr]
+            if self.is_function(name[:cut]) and self._split(rest):
+                return f"{name[:cut]}({digits}{rest})"
+        return ""
 
     def _split(self, name: str) -> list[str]:
         """A run of letters as known names, longest first, or nothing."""

@@ -32,6 +32,7 @@ SETTINGS = {
     "antialias": "rays of a pixel at an edge",
     "thin": "whether what lies between the rays is drawn too",
     "draft": "whether second looks in f64 are left out",
+    "beams": "whether tiles of pixels share beams; drafts wait for none, so that they have to do without",
     "legend": "whether a colour bar is drawn",
     "crop": "a square of the picture, magnified: left, top and width as parts of the side",
     "mesh": "cells a side of a mesh that is drawn instead of rays",

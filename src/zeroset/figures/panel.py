@@ -20,7 +20,7 @@ Progress = Callable[[float], None]
 Size = tuple[int, int]
 APART = 1e-3
 """Share of the distance from the eye by which a place may differ and still be the same."""
-OPTIONS = ("antialias", "depth", "thin", "draft")
+OPTIONS = ("antialias", "depth", "thin", "draft", "beams")
 """Settings that ``render`` takes as they are."""
 
 

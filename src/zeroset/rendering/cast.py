@@ -102,6 +102,7 @@ def cast(
     scene = as_scene(surface)
     shown = as_drawn(scene.surface)
     shown.check(chosen)
+    shown = shown.with_fitted_bounds()
     target = get_device(device)
     starts, ways = _rays(origins, directions)
     uniforms = shown.limits() | shown.parameters(chosen)

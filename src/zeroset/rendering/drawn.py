@@ -11,12 +11,15 @@ from typing import Any, NamedTuple
 
 from zeroset.kernel.types import F32, Type
 from zeroset.rendering.values import Arrays, parameter_uniforms
-from zeroset.scene.bounds import Bounds, bounds_kind, bounds_uniforms
+from zeroset.scene.bounds import Ball, Bounds, bounds_kind, bounds_uniforms
 from zeroset.scene.several import Drawable, Several
 from zeroset.scene.solid import Solid
 from zeroset.scene.surface import Surface
 from zeroset.solve.method import Method
 from zeroset.solve.shape import Body, Complement, Join, Leaf, Shape, Tree
+
+GUESS = Ball(64.0)
+"""Bounds that are taken as long as others are to be fitted: most are smaller."""
 
 
 class Drawn(NamedTuple):
@@ -53,6 +56,13 @@ class Drawn(NamedTuple):
     def arrays(self) -> bool:
         """Whether there are array parameters."""
         return any(surface.arrays for _, surface in self.surfaces)
+
+    def with_fitted_bounds(self) -> Drawn:
+        """The same, once all bounds are known: they tell how large numbers may get."""
+        for _, thing in self.bounded:
+            # It is kept.
+            thing.fitted  # noqa: B018
+        return as_drawn(self.thing)
 
     def check(self, method: Method) -> None:
         """Raise ``MethodError`` where a method cannot treat it, ``FormulaLimitError`` where nothing can."""
@@ -95,12 +105,17 @@ def as_drawn(thing: Drawable | Drawn) -> Drawn:
         leaves: dict[Surface, Leaf] = {}
         for k, surface in enumerate(each.surfaces):
             name = f"{prefix}k{k}_" if isinstance(each, Solid) else prefix
-            leaves[surface] = Leaf(surface.drawn_in(each.fitted), name, part, len(surface.isovalues))
+            leaves[surface] = Leaf(surface.drawn_in(_bounds(each)), name, part, len(surface.isovalues))
             surfaces.append((name, surface))
             part += leaves[surface].parts
         bodies.append(Body(_tree(each, leaves), bounds_kind(each.bounds), prefix))
         bounded.append((prefix, each))
     return Drawn(thing, Shape(tuple(bodies)), tuple(surfaces), tuple(bounded))
+
+
+def _bounds(thing: Surface | Solid) -> Bounds:
+    """Its bounds; a guess where they have not been fitted yet, which takes a while."""
+    return thing.bounds or vars(thing).get("fitted", GUESS)
 
 
 def _tree(thing: Surface | Solid, leaves: Mapping[Surface, Leaf]) -> Tree:

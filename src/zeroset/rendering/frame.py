@@ -127,6 +127,7 @@ class Frame:
         device: Device,
         draft: bool = False,
         tint: Tint | None = None,
+        beams: bool = True,
     ) -> None:
         def shader() -> Kernel:
             from zeroset.rendering.shade import shade_kernel
@@ -155,7 +156,7 @@ class Frame:
 
             lists = self._shader if optics.plain else None
             self._bounces = Bounces(self._tracer, drawn, method, optics, layout, device, tint, lists)
-        self.compile(draft)
+        self.compile(draft, beams)
         self._buffers = self._tracer.buffers(layout.lanes, layout.tiles)
         self._fields = fields(drawn.parts)
         self._materials = Table(device)
@@ -167,9 +168,9 @@ class Frame:
         """Wait until all of the frame's programs are there."""
         self._tracer.settle()
 
-    def compile(self, draft: bool) -> None:
-        """Begin to compile what is not there yet, or what of it a draft needs."""
-        self._tracer.compile(draft, self.layout.lanes <= SMALL)
+    def compile(self, draft: bool, beams: bool = True) -> None:
+        """Begin to compile what is not there yet, or what of it a draft needs, or a picture without beams."""
+        self._tracer.compile(draft, self.layout.lanes <= SMALL, beams)
 
     def draw(
         self,
@@ -181,6 +182,7 @@ class Frame:
         light: Illumination | None = None,
         materials: Sequence[Material] = (),
         palette: Palette | None = None,
+        beams: bool = True,
     ) -> GBuffer:
         """Run the passes; gives the outputs, which a GPU may still be working on.
 
@@ -193,11 +195,12 @@ class Frame:
             light: what shadows and rays beyond the first hit need.
             materials: of each part, where there are several.
             palette: the colours of values, for a frame that has them.
+            beams: whether tiles of pixels share beams.
         """
         shown = self._shown() if self._shown is not None else None
         if shown is not None:
             shown.keep()
-        bound = self._tracer.begin(drawn, uniforms, self._buffers, self.layout.tiles, draft)
+        bound = self._tracer.begin(drawn, uniforms, self._buffers, self.layout.tiles, draft, beams)
         if drawn.parts > 1:
             bound = {**bound, MATERIALS: self._materials.holding(material_table(materials))}
         lanes = self.layout.lanes
@@ -251,6 +254,7 @@ def frame_for(
     device: Device,
     draft: bool = False,
     tint: Tint | None = None,
+    beams: bool = True,
 ) -> Frame:
     """The frame of a structure, kept from an earlier picture where there was one; its programs are being compiled."""
     colored = "" if tint is None else tint.digest
@@ -258,10 +262,10 @@ def frame_for(
     with _frames_lock:
         frame = _frames.get(structure)
         if frame is None:
-            frame = Frame(drawn, method, lighting, layout, device, draft, tint)
+            frame = Frame(drawn, method, lighting, layout, device, draft, tint, beams)
             _frames[structure] = frame
         else:
-            frame.compile(draft)
+            frame.compile(draft, beams)
         _frames.move_to_end(structure)
         while len(_frames) > 1 and (len(_frames) > KEPT or sum(f.layout.lanes for f in _frames.values()) > KEPT_LANES):
             _frames.popitem(last=False)

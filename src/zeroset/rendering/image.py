@@ -83,6 +83,7 @@ class Image:
         pixels: (height, width, 3) uint8, sRGB.
         certified: whether the method proves its answers.
         coloring: what the surface is coloured by; None for nothing.
+        values: the values of what it is coloured by, where there are a few alone: isovalues.
 
     Example:
         >>> import zeroset as zs
@@ -99,10 +100,12 @@ class Image:
         outputs: GBuffer | Assembled,
         certified: bool,
         coloring: Coloring | None = None,
+        values: tuple[float, ...] = (),
     ) -> None:
         self.size = size
         self.certified = certified
         self.coloring = coloring
+        self.values = values
         self._outputs = outputs
 
     @cached_property
@@ -139,13 +142,12 @@ class Image:
                 several surfaces, isovalues or surfaces of a solid; 0 where there is one alone), or ``value``, the
                 quantity that the part is coloured by (nan where there is none).
         """
-        if name == VALUE and self.coloring is None:
+        if isinstance(name, str) and name == VALUE and self.coloring is None:
             raise ZerosetError("there is no value: the surface is not coloured by any", hint=_COLOR)
-        if name not in self.outputs:
-            known = self.outputs
-            raise ZerosetError(
-                f"there is no output {name!r}", hints=(*did_you_mean(name, known), f"there are {', '.join(known)}")
-            )
+        known = self.outputs
+        if not isinstance(name, str) or name not in known:
+            hints = (*did_you_mean(str(name), known), f"there are {', '.join(known)}")
+            raise ZerosetError(f"there is no output {name!r}", hints=hints)
         if name == VALUE:
             values = self._outputs.rows(VALUE)
             return np.where(np.abs(values) <= LARGEST, values, np.float32(np.nan))
@@ -185,7 +187,11 @@ class Image:
         below, above = bool(np.any(known < low - hair)), bool(np.any(known > high + hair))
         # Parts that keep their own colours lack nothing.
         missing = bool(np.any(values > LARGEST))
-        key = Key(self.coloring.quantity.title, self.coloring.chosen_map, (low, high), below, above, missing)
+        if self.values:
+            # Each has a block, which shows what colour it has beyond an end.
+            below = above = False
+        title, map_ = self.coloring.quantity.title, self.coloring.chosen_map
+        key = Key(title, map_, (low, high), below, above, missing, self.values)
         return with_legend(self.pixels, key)
 
     def save(self, path: str | os.PathLike[str], legend: bool = False) -> Path:

@@ -1,5 +1,7 @@
 """The legend: a colour bar with numbers and the quantity's name, drawn onto the picture.
 
+Where the colours stand for a few values alone, such as isovalues, the bar has a block of one colour for each.
+
 It stands on a plate of its own at the right, light over a light picture and dark over a dark one. All its sizes follow
 from the picture's; in a very small picture the name goes first, then the numbers.
 """
@@ -12,13 +14,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from zeroset.rendering.ticks import labels, ticks
-from zeroset.scene.colormap import NEUTRAL, table
+from zeroset.rendering.ticks import exact_labels, labels, ticks
+from zeroset.scene.colormap import NEUTRAL, find_map, table
 
 Pixels = npt.NDArray[np.uint8]
 SMALLEST, LARGEST = 9, 48
 """Height of letters in pixels."""
 NONE = "no value"
+BLOCK = 2.2
+"""Height of a value's block where there are a few, in letters."""
 LIGHT, DARK = (255, 255, 255, 208), (18, 20, 24, 200)
 """Plates, with their opacity."""
 
@@ -34,6 +38,7 @@ class Key:
         below: whether something seen lies below the range.
         above: whether something lies above.
         missing: whether something seen has no value.
+        values: the values that there are, in rising order, where those are a few; else there may be any.
     """
 
     title: str
@@ -42,6 +47,7 @@ class Key:
     below: bool = False
     above: bool = False
     missing: bool = False
+    values: tuple[float, ...] = ()
 
 
 def with_legend(pixels: Pixels, key: Key) -> Pixels:
@@ -70,7 +76,18 @@ def with_legend(pixels: Pixels, key: Key) -> Pixels:
 
 def bar_colors(name: str, count: int) -> Pixels:
     """So many colours of a map from its first to its last, sRGB, (count, 3)."""
-    place = np.linspace(0.0, len(table(name)) - 1.0, max(count, 1))
+    return map_colors(name, np.linspace(0.0, 1.0, max(count, 1)))
+
+
+def map_colors(name: str, shares: npt.NDArray[np.float64]) -> Pixels:
+    """The colours at places of a map, from 0 to 1; sRGB, (count, 3). Beyond them is what a surface shows there.
+
+    Example:
+        >>> map_colors("gray", np.array([1.0, 7.0])).tolist()
+        [[245, 245, 245], [245, 245, 245]]
+    """
+    inside = shares - np.floor(shares) if find_map(name).kind == "cyclic" else np.clip(shares, 0.0, 1.0)
+    place = inside * (len(table(name)) - 1.0)
     linear = np.stack([np.interp(place, np.arange(len(table(name))), c) for c in table(name).T], axis=-1)
     return _bytes(linear)
 
@@ -102,13 +119,11 @@ class _Plan:
         self.size = size
         self.pad = pad = max(round(size * 0.7), 2)
         margin = max(round(short * 0.025), 2)
-        self.bar = (max(round(size * 1.1), 5), max(round(height * 0.45), 8))
-        self.ticks = ticks(*key.range, max(round(self.bar[1] / (size * 1.7)), 2))
-        self.labels = labels(self.ticks)
-        if len(self.ticks) < 2:
-            # No two round numbers lie in the range.
-            self.ticks = list(key.range)
-            self.labels = [f"{v:.3g}" for v in self.ticks]
+        tall = round(height * 0.45)
+        if key.values:
+            tall = min(tall, round(len(key.values) * size * BLOCK))
+        self.bar = (max(round(size * 1.1), 5), max(tall, 8))
+        self.ticks, self.labels = self._numbers()
         numbers = max(map(self.wide, self.labels), default=0)
         beside = self.bar[0] + round(size * 0.7) + numbers
         # What does not fit is left out: first the patch for what has no value, then the name, then the numbers.
@@ -127,6 +142,35 @@ class _Plan:
         x0, y0 = width - margin - w, max(height - margin - h, 0)
         self.plate = (x0, y0, x0 + w, y0 + h)
         self.corner = (x0 + pad, y0 + pad + self._above() + self._ends())
+
+    def _numbers(self) -> tuple[list[float], list[str]]:
+        """What stands beside the bar, and how it is written."""
+        key, most = self.key, max(round(self.bar[1] / (self.size * 1.7)), 2)
+        if key.values:
+            each = -(-len(key.values) // most)
+            return list(key.values[::each]), exact_labels(key.values)[::each]
+        found = ticks(*key.range, most)
+        if len(found) < 2:
+            # No two round numbers lie in the range.
+            return list(key.range), [f"{v:.3g}" for v in key.range]
+        return found, labels(found)
+
+    def _level(self, value: float) -> float:
+        """How far below the bar's top a value stands."""
+        h = self.bar[1]
+        if self.key.values:
+            return h * (1 - (self.key.values.index(value) + 0.5) / len(self.key.values))
+        low, high = self.key.range
+        return (h - 1) * (1 - (value - low) / (high - low))
+
+    def _colors(self) -> Pixels:
+        """The bar's colours from its top."""
+        h, key = self.bar[1], self.key
+        if not key.values:
+            return bar_colors(key.map, h)[::-1]
+        low, high = key.range
+        blocks = map_colors(key.map, (np.asarray(key.values) - low) / (high - low))
+        return blocks[np.arange(h) * len(blocks) // h][::-1]
 
     def _ends(self) -> int:
         """Room beyond the bar's ends, into which numbers and arrows stick out."""
@@ -167,12 +211,11 @@ class _Plan:
         )
         x, y = self.corner
         w, h = self.bar
-        colors = bar_colors(self.key.map, h)[::-1]
+        colors = self._colors()
         plate.paste(Pillow.fromarray(np.repeat(colors[:, None], w, axis=1)), (x, y))
         self._arrows(pen, colors)
         for value, label in zip(self.ticks, self.labels, strict=True):
-            low, high = self.key.range
-            level = y + (h - 1) * (1 - (value - low) / (high - low))
+            level = y + self._level(value)
             pen.line((x + w, level, x + w + round(self.size * 0.3), level), fill=faint, width=max(self.size // 14, 1))
             pen.text((x + w + round(self.size * 0.6), level), label, font=self.font, fill=ink, anchor="lm")
         for i, line in enumerate(self.title):

@@ -65,6 +65,7 @@ def render(
     samples: int = 1,
     progress: Progress | None = None,
     color_by: Coloring | str | None = None,
+    beams: bool = True,
 ) -> Image:
     """Draw a surface.
 
@@ -81,6 +82,7 @@ def render(
         thin: also draw what is thinner than a pixel and lies between the rays, down to lines and points without any
             thickness, as UNRESOLVED; certified methods only.
         draft: leave out thin parts, and second looks at what f32 left unresolved: the picture of a window that moves.
+            It does not wait for beams that are still being compiled, so what it leaves unresolved depends on when.
         shadows: whether the lights throw shadows; None takes the scene's own.
         shadow_tolerance: world length to which shadows are found; None takes 2^-11 of the bounds' extent.
         environment: what is seen all around; None takes the scene's own.
@@ -91,6 +93,8 @@ def render(
         progress: called now and then with the share that is done, from 0 to 1.
         color_by: a quantity that gives the colour of each point of all that is drawn: a ``zs.Coloring``, one's name, or
             a formula; None takes the materials' own.
+        beams: whether tiles of 8x8 pixels share beams, which say where their rays begin; without them each ray shows
+            what its method alone can tell. Only what stays unresolved depends on it.
 
     Returns:
         The picture, with depth, normals, status, steps and the value coloured by as ``image.aov(name)``.
@@ -133,7 +137,10 @@ def render(
     tint = None if colored is None else _tint(colored, shown, target)
     whole = fits(layout, target)
     # First the frame: its kernels are compiled while the bounds are being fitted.
-    frame = frame_for(shown, chosen, lighting, layout, target, draft, tint) if whole else None
+    frame = frame_for(shown, chosen, lighting, layout, target, draft, tint, beams) if whole else None
+    shown, guessed = shown.with_fitted_bounds(), shown
+    if frame is not None and shown.shape != guessed.shape:
+        frame = frame_for(shown, chosen, lighting, layout, target, draft, tint, beams)
     view = parse_camera(camera or scene.camera or scene.surface.camera, shown.fitted)
     rays = view.rays(layout.width, layout.height)
     uniforms = frame_uniforms(shown, chosen, rays, layout, world_tolerance(tolerance, shown.smallest))
@@ -147,22 +154,23 @@ def render(
     outputs: GBuffer | Assembled
     if frame is not None:
         with frame.lock:
-            outputs = frame.draw(shown, uniforms, thin, progress, draft, light, materials, palette)
+            outputs = frame.draw(shown, uniforms, thin, progress, draft, light, materials, palette, beams)
     else:
         if palette is not None and palette.range is None:
             # All bands have one range: that of the whole picture, drawn smaller.
             small = _smaller(layout, target)
-            seen = render(scene, (small.width, small.height), camera, method, target, tolerance, thin=thin)
+            seen = render(scene, (small.width, small.height), camera, method, target, tolerance, thin=thin, beams=beams)
             palette = palette._replace(range=seen.range)
         outputs = Assembled(layout, shown.parts, palette)
         parts = tuple(bands(layout, target))
         for i, band in enumerate(parts):
             own = uniforms | camera_uniforms(band.rays(layout, rays)) | band.layout.uniforms()
-            part = frame_for(shown, chosen, lighting, band.layout, target, draft, tint)
+            part = frame_for(shown, chosen, lighting, band.layout, target, draft, tint, beams)
             with part.lock:
                 share = part_of(progress, i, len(parts))
-                outputs.add(band, part.draw(shown, own, thin, share, draft, light, materials, palette))
-    return Image((layout.width, layout.height), outputs, chosen.certified, scene.coloring)
+                outputs.add(band, part.draw(shown, own, thin, share, draft, light, materials, palette, beams))
+    values = () if colored is None else colored.values
+    return Image((layout.width, layout.height), outputs, chosen.certified, scene.coloring, values)
 
 
 def _colored(scene: Scene, coloring: Coloring | None) -> Scene:

@@ -1,8 +1,10 @@
-"""Round numbers along a range, and how they are written."""
+"""Round numbers along a range, and how numbers are written."""
 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Sequence
 from itertools import pairwise
 
 
@@ -40,6 +42,22 @@ def labels(values: list[float]) -> list[str]:
         return [_scientific(v, step) for v in values]
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
     return [f"{v:.{decimals}f}" for v in values]
+
+
+def exact_labels(values: Sequence[float]) -> list[str]:
+    """Numbers that somebody has chosen as text: each as short as it can be told from the others.
+
+    Example:
+        >>> exact_labels([-1.5, 0.0, 6.0, 1e-7])
+        ['-1.5', '0', '6', '1e-7']
+        >>> exact_labels([1.00001, 1.00002])
+        ['1.00001', '1.00002']
+    """
+    for digits in (4, 6, 9, 17):
+        texts = [f"{v + 0.0:.{digits}g}" for v in values]
+        if len(set(texts)) == len(set(values)):
+            break
+    return [re.sub(r"e([+-])0*", lambda sign: "e-" if sign[1] == "-" else "e", text) for text in texts]
 
 
 def _scientific(value: float, step: float) -> str:

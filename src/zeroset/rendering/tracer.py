@@ -103,15 +103,16 @@ class Tracer:
         self._shared.append(name)
         self._making.add(name, name, build)
 
-    def compile(self, draft: bool, hurry: bool) -> None:
+    def compile(self, draft: bool, hurry: bool, beams: bool = True) -> None:
         """Begin to compile what is not there yet; ``program`` waits for the one that it is asked for.
 
         Args:
             draft: only what a draft needs.
             hurry: whether a first picture is so small that compiling for it takes longer than drawing it.
+            beams: whether rays are to have beams.
         """
         passes = [name for name in (DRAFT if draft else ORDER) if name in self._making]
-        if self._unaimed(draft) and not self._drawn:
+        if AIM in passes and (not beams or (self._unaimed(draft) and not self._drawn)):
             passes.remove(AIM)
         self._hurry = hurry and not self._drawn
         # Of what a whole picture needs, second looks come last.
@@ -157,15 +158,30 @@ class Tracer:
         return made
 
     def begin(
-        self, drawn: Drawn, uniforms: Mapping[str, float], buffers: Buffers, tiles: int, draft: bool = False
+        self,
+        drawn: Drawn,
+        uniforms: Mapping[str, float],
+        buffers: Buffers,
+        tiles: int,
+        draft: bool = False,
+        beams: bool = True,
     ) -> Buffers:
-        """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters."""
+        """Start a frame: empty lists, beams over all tiles. Gives the buffers with the array parameters.
+
+        Args:
+            drawn: what is traced.
+            uniforms: everything that the kernels read.
+            buffers: the frame's.
+            tiles: how many there are.
+            draft: whether rays do without beams while the program that makes those is still being compiled.
+            beams: whether they have any at all.
+        """
         self._drawn = True
         bound = {**buffers, **drawn.bind(self._arrays)} if drawn.arrays else buffers
         self._device.clear(buffers[COUNTERS])
         if self.beams:
             self._device.clear(buffers[OPEN])
-            if self._unaimed(draft) and not self._making.ready(AIM):
+            if not beams or (self._unaimed(draft) and not self._making.ready(AIM)):
                 self._aim_nowhere(uniforms, buffers, tiles)
                 return bound
             self.program(AIM).run(tiles, {**uniforms, "level": IN_TILES}, bound)

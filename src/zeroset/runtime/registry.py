@@ -52,6 +52,8 @@ def get_device(device: str | Device = "auto") -> Device:
         'interp'
     """
     if not isinstance(device, str):
+        if not isinstance(device, Device):
+            raise DeviceError(f"a device is a name or a Device, not {device!r}", hint=_known())
         return device
     if device != "auto":
         return _device(device)
@@ -91,10 +93,13 @@ def _best() -> str:
 def _device(name: str) -> Device:
     make = DEVICES.get(name)
     if make is None:
-        known = f"there are {', '.join(sorted(DEVICES))}, and auto for the fastest"
-        raise DeviceError(f"there is no device {name!r}", hints=(*did_you_mean(name, DEVICES), known))
+        raise DeviceError(f"there is no device {name!r}", hints=(*did_you_mean(name, DEVICES), _known()))
     with _making:
         known_device = _made.get(name)
         if known_device is None or getattr(known_device, "lost", False):
             known_device = _made[name] = make()
     return known_device
+
+
+def _known() -> str:
+    return f"there are {', '.join(sorted(DEVICES))}, and auto for the fastest"

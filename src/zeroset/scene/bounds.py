@@ -62,7 +62,7 @@ class Ball:
         object.__setattr__(self, "radius", number(self.radius, "the radius of the bounds"))
         if not SMALLEST <= self.radius < LARGEST:
             raise BoundsError(
-                f"the radius of the bounds must be from {SMALLEST:g} to {LARGEST:g}, not {self.radius!r}",
+                f"the radius of the bounds must be at least {SMALLEST:g} and below {LARGEST:g}, not {self.radius!r}",
                 hint="try bounds=3.0",
             )
 

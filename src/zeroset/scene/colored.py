@@ -37,11 +37,18 @@ class Colored(NamedTuple):
     @property
     def range(self) -> Range | None:
         """The range that the quantity has by itself; None where it is found from the picture."""
-        if self.coloring.by != "isovalue":
+        if not self.values:
             return None
-        values = [v for surface, on in zip(self.surfaces, self.shown, strict=True) if on for v in surface.isovalues]
-        low, high = min(values), max(values)
+        low, high = self.values[0], self.values[-1]
         return (low, high) if low < high else (low - 1.0, high + 1.0)
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """The values that there are, rising, where these are few: isovalues."""
+        if self.coloring.by != "isovalue":
+            return ()
+        pairs = zip(self.surfaces, self.shown, strict=True)
+        return tuple(sorted({value for surface, on in pairs if on for value in surface.isovalues}))
 
 
 def colored(thing: Drawable, usual: Material) -> Colored | None:

@@ -98,6 +98,8 @@ def loads(text: str, path: str | os.PathLike[str] = "scene.toml") -> Scene:
     Raises:
         SceneFileError: it is no scene; the message names the line.
     """
+    # Some editors begin a file with a mark that says in what order a character's bytes stand.
+    text = text.removeprefix("\ufeff")
     return _Reader(text, path).scene(read_toml(text, path))
 
 

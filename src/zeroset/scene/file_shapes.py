@@ -28,6 +28,7 @@ from typing import Any, Protocol
 from zeroset.errors import ParameterError, SceneFileError, ZerosetError
 from zeroset.scene.blame import blamed_bounds, blamed_params
 from zeroset.scene.bounds import Ball, Bounds, parse_bounds
+from zeroset.scene.file_order import Order
 from zeroset.scene.isovalues import isovalues_of
 from zeroset.scene.light import Material
 from zeroset.scene.lines import Path
@@ -84,7 +85,7 @@ def read_shapes(reader: Reader, data: Mapping[str, Any]) -> Drawable:
     for key in (*OWN, "name", "bounds") if "solid" not in data else ():
         if key in data:
             raise reader.fail(f"{key} belongs to one surface", key, ("put it below [[surfaces]]",))
-    shapes = _Shapes(reader)
+    shapes = _Shapes(reader, Order(listed))
     for i, table in enumerate(listed):
         path: Path = ("surfaces", i)
         shapes.add(reader.known(table, (*KEYS, "solid", "material"), "a surface", path), path)
@@ -145,8 +146,9 @@ def _blamed_isovalues(values: Any) -> str:
 class _Shapes:
     """The surfaces and solids of a file, one after the other."""
 
-    def __init__(self, reader: Reader) -> None:
+    def __init__(self, reader: Reader, order: Order) -> None:
         self._reader = reader
+        self._order = order
         self._named: dict[str, Surface | Solid] = {}
         self._count = 0
         self.alone: dict[str, Surface | Solid] = {}
@@ -183,6 +185,7 @@ class _Shapes:
                 raise reader.fail(f"a solid has no {key} of its own", (*path, key), ("give its surfaces theirs",))
         text = reader.kinds(table["solid"], (*path, "solid"))
         with reader.placing(lambda error: (*path, "solid")):
+            self._order.check(text, str(table.get("name", "")) if path else "", self._named)
             made = parse_solid(text, self._named)
         limits = _bounds(reader, table, path)
         used = names_in(text)

@@ -83,7 +83,8 @@ class Material:
         shininess: exponent of the highlight; larger is smaller and sharper.
         opacity: 1 for solid; below, what lies behind is seen through it.
         reflectance: share of the light that is mirrored.
-        ior: index of refraction of the inside, where f < 0, against the outside; 1 bends nothing.
+        ior: index of refraction of the inside, where f < 0, against the outside; 1 bends nothing. It does nothing where
+            no light goes through: with an opacity of 1.
         coloring: colours both sides by a quantity instead; text for one in its usual colours. All surfaces of a picture
             that are coloured so have the same one.
         last_solid: whether it is seen through only where another surface lies behind, so that the last one along a ray

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from zeroset.errors import FormulaError, ParameterError, did_you_mean
-from zeroset.expr import Expr, parse, text
+from zeroset.expr import Expr, from_sympy, is_sympy, parse, text
 from zeroset.expr.text import brief
 from zeroset.scene.bounds import Bounds, parse_bounds
 from zeroset.scene.camera import Camera
@@ -312,9 +312,7 @@ def _expression(source: Any, scalars: Mapping[str, Any], arrays: Mapping[str, An
         return parse(source, params=set(scalars) - {TIME}, arrays=set(arrays)), {}
     if isinstance(source, Expr):
         return source, {}
-    if type(source).__module__.partition(".")[0] == "sympy":
-        from zeroset.expr import from_sympy
-
+    if is_sympy(source):
         return from_sympy(source), {}
     if callable(source):
         from zeroset.expr import trace

@@ -79,6 +79,10 @@ def test_a_camera_path(zeroset: Run, tmp_path: Path) -> None:
         (["sphere", "--orbit", "90", "-o", "a.gif", "--quality", "best"], "of MP4 files, and a.gif is none"),
         (["sphere", "--orbit", "90", "-o", "a.mp4", "--dither", "diffused"], "of GIF files, and a.mp4 is none"),
         (["sphere", "--orbit", "90", "-o", "none/a.mp4"], "there is no folder"),
+        (["sphere", "--orbit", "90", "--lamp", "here"], "cannot read the lamp 'here'"),
+        (["sphere", "--orbit", "90", "--depth", "2"], "nothing mirrors or is transparent"),
+        (["sphere", "--orbit", "90", "--opacity", "0.5", "--depth", "99", "-o", "a.gif"], "from 0 to 32"),
+        (["sphere", "--orbit", "90", "--shadow-tolerance", "1"], "there are no shadows"),
     ],
 )
 def test_mistakes(args: list[str], said: str, zeroset: Run, tmp_path: Path) -> None:
@@ -88,6 +92,15 @@ def test_mistakes(args: list[str], said: str, zeroset: Run, tmp_path: Path) -> N
     assert ran.status == 2
     assert re.search(said, ran.err), ran.err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_frames_look_as_pictures_do(zeroset: Run, tmp_path: Path) -> None:
+    look = ("--lamp", "0,-4,5", "--shadows", "--shadow-tolerance", "0.2", "--reflectance", "0.3", "--depth", "1")
+    ran = zeroset("animate", "tangle", "--orbit", "60", "--frames", "3", "-s", "32", "-o", "a-#.png", *look)
+    assert (ran.status, ran.err) == (0, "")
+    assert zeroset("render", "tangle", "-s", "32", "-o", "b.png", *look).status == 0
+    with Image.open(tmp_path / "a-1.png") as frame, Image.open(tmp_path / "b.png") as picture:
+        assert np.array_equal(np.asarray(frame.convert("RGB")), np.asarray(picture.convert("RGB")))
 
 
 def test_ctrl_c_says_how_to_go_on(zeroset: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -43,6 +46,18 @@ def test_all_figures_go_into_a_folder(zeroset: Run, tmp_path: Path, monkeypatch:
     ran = zeroset("figure", "all", "-o", str(folder), "-s", "8", "-d", "cpu")
     assert ran.status == 0
     assert sorted(path.name for path in folder.iterdir()) == ["k09-10.png", "k09-8.png"]
+
+
+@pytest.mark.parametrize("name", ["k09-5", "k09-6"])
+def test_a_figure_is_the_same_with_and_without_what_was_compiled_before(name: str, tmp_path: Path) -> None:
+    cache = {**os.environ, "ZEROSET_CACHE_DIR": str(tmp_path / "cache")}
+    command = [sys.executable, "-m", "zeroset", "figure", name, "-s", "24", "-d", "cpu", "-o"]
+    pictures = []
+    for turn in range(2):
+        path = tmp_path / f"{turn}.png"
+        subprocess.run([*command, str(path)], env=cache, capture_output=True, check=True)
+        pictures.append(path.read_bytes())
+    assert pictures[0] == pictures[1]
 
 
 @pytest.mark.parametrize(

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
 import time
 from functools import partial
 from pathlib import Path
+
+import pytest
 
 COMMAND = [sys.executable, "-m", "zeroset"]
 HEARD = (signal.SIGINT, signal.SIG_DFL)
@@ -80,6 +83,30 @@ def test_ctrl_c_in_the_middle_of_a_long_render(tmp_path: Path) -> None:
     assert "Traceback" not in out + err
     assert (tmp_path / "a.png").read_bytes() == b"what was there"
     assert os.listdir(tmp_path) == ["a.png"]
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no full disk at hand")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("where", ["> /dev/full", ">&-"])
+@pytest.mark.parametrize("command", ["gallery", "--help", "render sphere -s 16 -o a.png", "explain x"])
+def test_output_that_cannot_be_written_is_one_clear_line(
+    command: str, where: str, unbuffered: str, tmp_path: Path
+) -> None:
+    ran = subprocess.run(
+        f"{shlex.join(COMMAND)} {command} {where}", shell=True, env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert ran.returncode == 1
+    reason = "it is closed" if where == ">&-" else "No space left on device"
+    assert ran.stderr == f"error: cannot write to the standard output: {reason}\n"
+
+
+def test_a_mistake_is_told_though_output_is_closed(tmp_path: Path) -> None:
+    command = f"{shlex.join(COMMAND)} render 'x +' >&-"
+    ran = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ran.returncode == 2
+    assert "a value is missing" in ran.stderr
+    assert "standard output" not in ran.stderr
 
 
 def test_a_reader_that_leaves_early_is_no_error() -> None:

@@ -118,6 +118,15 @@ BAD = [
     (["+".join(["x"] * 1_000_000)], ["at most"]),
     (["+".join(f"sin({i}x)" for i in range(2000))], ["too many operations"]),
     (["barth-sextik"], ["did you mean barth-sextic"]),
+    (["foo"], ['the gallery has no surface "foo"']),
+    (["sinx"], ["unknown name sinx", "  sinx\n", "^", "did you mean sin(x)?"]),
+    (["sinx / pi"], ["unknown name sinx", "did you mean sin(x)?"]),
+    (["cos2x-y"], ["unknown name cos2x", "did you mean cos(2x)?"]),
+    (["pi"], ["none of the variables"]),
+    (["foo.png"], ["'foo.png' is neither a formula nor a scene file", "end in .toml", "zeroset gallery"]),
+    (["models/Cup.HF"], ["'models/Cup.HF' is neither", "end in .toml"]),
+    ([__file__], ["is neither a formula nor a scene file"]),
+    (["x.y"], ["the character . cannot stand here"]),
     (["none.toml"], ["No such file", "in none.toml"]),
     ([BALL, "-o", "none/a.png"], ["cannot write 'none/a.png'", "no folder"]),
     ([BALL, "-o", "."], ["cannot"]),
@@ -132,6 +141,7 @@ BAD = [
     ([BALL, "-s", "big"], ["cannot read the size"]),
     ([BALL, "-b", "0"], ["radius"]),
     ([BALL, "-b", "nan"], ["finite"]),
+    ([BALL, "-b", "1e15"], ["at least 1e-15 and below 1e+15"]),
     ([BALL, "-b", "1,2"], ["cannot read the bounds"]),
     ([BALL, "-b", "0,0,0,1,1,0"], ["empty"]),
     ([BALL, "-t", "-1"], ["tolerance"]),
@@ -139,6 +149,8 @@ BAD = [
     ([BALL, "-d", "cpuu"], ["no device 'cpuu'", "did you mean cpu"]),
     ([BALL, "-p", "a=1"], ["no parameter 'a'"]),
     (["x = a", "-p", "a=pie"], ["cannot read the parameter"]),
+    (["x = a", "-p", "a=pi/0"], ["cannot read the parameter 'a=pi/0'"]),
+    (["x = a", "-p", "a=1,2/0.0"], ["cannot read the parameter"]),
     ([BALL, "-p", "a"], ["cannot read the parameter", "name=number"]),
     ([BALL, "-p", "a=1", "-p", "a=2"], ["the parameter a is given twice"]),
     ([BALL, "--ior", "1.3"], ["none is transparent", "--opacity"]),
@@ -150,6 +162,14 @@ BAD = [
     ([BALL, "--back", "red", "--isovalues", "0,0.1"], ["not seen", "isovalue"]),
     ([BALL, "--light", "1,2"], ["cannot read the light '1,2'", "--light"]),
     ([BALL, "--light", "0,0,0"], ["direction must not be zero"]),
+    ([BALL, "--lamp", "1,2"], ["cannot read the lamp '1,2'", "--lamp=-1,0.5,2"]),
+    ([BALL, "--lamp", "1,2,nan"], ["a light's position", "finite"]),
+    ([BALL, *["--lamp=1,2,3"] * 33], ["at most 32 lights"]),
+    ([BALL, "--depth", "3"], ["nothing mirrors or is transparent", "--reflectance"]),
+    ([BALL, "--depth", "33", "--reflectance", "0.5"], ["from 0 to 32"]),
+    ([BALL, "--depth", "many", "--reflectance", "0.5"], ["many"]),
+    ([BALL, "--shadow-tolerance", "0.1"], ["there are no shadows", "add --shadows"]),
+    ([BALL, "--shadow-tolerance", "-1", "--shadows"], ["the shadow tolerance must be at least"]),
     ([BALL, "--samples", "0"], ["samples"]),
     ([BALL, "--samples", "4", "--antialias", "4"], ["antialias"]),
     (["x + a", "-p", "a=inf"], ["finite"]),
@@ -201,6 +221,23 @@ def test_a_mistake_in_a_scene_file_has_file_and_line(text: str, said: str, zeros
     assert not (tmp_path / "out.png").exists()
 
 
+def test_a_scene_file_may_begin_with_a_byte_order_mark(zeroset: Run, tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_bytes(b'\xef\xbb\xbfformula = "x"\nbounds = 2.0\n')
+    assert zeroset("render", "s.toml", "-s", "16", "-o", "a.png").status == 0
+    (tmp_path / "s.toml").write_bytes(b'\xef\xbb\xbfformula = "x"\nbounds = -2.0\n')
+    ran = zeroset("render", "s.toml", "-o", "a.png")
+    assert ran.status == 2
+    assert "s.toml:2" in ran.err
+
+
+def test_a_scene_file_without_its_suffix_is_no_formula(zeroset: Run, tmp_path: Path) -> None:
+    for name in ("scene.txt2", "scene"):
+        (tmp_path / name).write_text('formula = "x"')
+        ran = zeroset("render", name if "." in name else f"./{name}", "-o", "a.png")
+        assert ran.status == 2
+        assert "is neither a formula nor a scene file" in ran.err
+
+
 def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
     looks = {
         "plain": (),
@@ -233,6 +270,37 @@ def test_light_and_edges(zeroset: Run, tmp_path: Path) -> None:
     assert sunny.material.back == (1.0, 0.0, 0.0)
     assert [(light.direction, light.headlight) for light in sunny.lights] == [((1, -1, 2), False), ((-1, 0, 0), False)]
     assert zs.load(tmp_path / "sky.toml").environment is not None
+
+
+def test_lamps_depth_and_coarse_shadows(zeroset: Run, tmp_path: Path) -> None:
+    looks = {
+        "a": ("--light=1,-1,2", "--lamp", "0,-4,5", "--lamp=-3,0,1", "--shadows"),
+        "b": ("--light=1,-1,2", "--lamp", "0,-4,5", "--lamp=-3,0,1", "--shadows", "--shadow-tolerance", "0.3"),
+        "c": ("--reflectance", "0.5", "--environment", "room"),
+        "d": ("--reflectance", "0.5", "--environment", "room", "--depth", "0"),
+    }
+    drawn = {}
+    for name, options in looks.items():
+        ran = zeroset("render", "tangle", "-o", f"{name}.png", "-s", "48", "--save-scene", f"{name}.toml", *options)
+        assert (ran.status, ran.err) == (0, "")
+        drawn[name] = picture(tmp_path / f"{name}.png")
+    lights = zs.load(tmp_path / "a.toml").lights
+    assert [(light.direction, light.position, light.headlight) for light in lights[:1]] == [((1, -1, 2), None, False)]
+    assert [(light.position, light.headlight) for light in lights[1:]] == [((0, -4, 5), False), ((-3, 0, 1), False)]
+    room = zs.load(tmp_path / "c.toml")
+    assert np.array_equal(drawn["a"], zs.render(zs.load(tmp_path / "a.toml"), 48).pixels)
+    assert np.array_equal(drawn["b"], zs.render(zs.load(tmp_path / "b.toml"), 48, shadow_tolerance=0.3).pixels)
+    assert np.array_equal(drawn["d"], zs.render(room, 48, depth=0).pixels)
+    assert not np.array_equal(drawn["a"], drawn["b"])
+    assert not np.array_equal(drawn["c"], drawn["d"])
+
+
+def test_shadows_of_a_scene_file_can_be_left_out(zeroset: Run, tmp_path: Path) -> None:
+    more = ("-s", "16", "-o", "a.png", "--save-scene")
+    assert zeroset("render", "tangle", "--shadows", *more, "a.toml").status == 0
+    assert zeroset("render", "a.toml", *more, "b.toml").status == 0
+    assert zeroset("render", "a.toml", "--no-shadows", *more, "c.toml").status == 0
+    assert [zs.load(tmp_path / f"{name}.toml").shadows for name in "abc"] == [True, True, False]
 
 
 def test_numbers_as_people_write_them(zeroset: Run, tmp_path: Path) -> None:

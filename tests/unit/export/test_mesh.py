@@ -185,6 +185,15 @@ def test_poles_and_ends_of_where_f_is_defined_are_no_surface() -> None:
     assert np.allclose(step.vertices[:, 0], 0, atol=1e-5)
 
 
+@pytest.mark.parametrize("formula", ["(x + y + z)^2", "x^2", "x^2 + y^2 + z^2", "|x|"])
+def test_where_f_only_touches_zero_it_is_said_to_keep_its_sign(formula: str) -> None:
+    with pytest.raises(BoundsError, match=r"f is 0 but does not change its sign") as caught:
+        zs.mesh(zs.surface(formula, bounds=1.0), 16)
+    assert "of f = g^2 mesh g" in str(caught.value)
+    with pytest.raises(BoundsError, match=r"f does not change its sign"):
+        zs.mesh(zs.surface(formula + " + 1", bounds=1.0), 16)
+
+
 def test_excluded_blocks_held_nothing() -> None:
     from zeroset.export.marching.extract import active_blocks, extract
     from zeroset.export.marching.lattice import make_lattice

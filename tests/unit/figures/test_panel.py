@@ -1,10 +1,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import zeroset as zs
-from zeroset.figures import Panel
+from zeroset.figures import Panel, find
 from zeroset.figures.panel import draw_panel, magnified, wrong_pixels
+from zeroset.rendering.frame import settle
 from zeroset.runtime import get_device
 
 SIZE = (24, 24)
@@ -51,6 +53,16 @@ def test_numbers_in_labels_are_measured():
     assert label == "100%"
     _, label = drawn("{wrong}", surface="sphere")
     assert label == "0"
+
+
+@pytest.mark.parametrize(("name", "place"), [("k09-5", 0), ("k09-5", 8), ("k09-6", 1)])
+def test_a_panel_is_the_same_whatever_is_compiled_by_then(name: str, place: int):
+    panel, size, device = find(name).panels[place], (96, 96), get_device("cpu")
+    first, label = draw_panel(panel, size, device)
+    settle()
+    again, same = draw_panel(panel, size, device)
+    assert np.array_equal(first, again)
+    assert label == same
 
 
 def test_wrong_pixels_are_counted():

@@ -59,6 +59,27 @@ def test_a_first_draft_does_without_beams_and_shows_the_same(where: str) -> None
     assert aimed.aov("steps").sum() < first.aov("steps").sum()
 
 
+def test_a_draft_without_beams_is_the_same_whenever_it_is_drawn() -> None:
+    device = Noting("cpu")
+    interval, coarse = zs.methods.Interval(), 2.0**-4
+    options = {"method": interval, "tolerance": coarse, "draft": True, "beams": False}
+    first = drawn(device, **options)
+    assert first.unresolved > 1000
+    aimed = drawn(device, **{**options, "draft": False, "thin": False, "beams": True})
+    settle()
+    again = drawn(device, **options)
+    assert np.array_equal(first.pixels, again.pixels)
+    assert np.array_equal(first.aov("t"), again.aov("t"), equal_nan=True)
+    assert not np.array_equal(first.aov("t"), aimed.aov("t"), equal_nan=True)
+
+
+def test_whole_pictures_without_beams_show_the_same() -> None:
+    steiner = zs.gallery["steiner"]
+    with_, without = (zs.render(steiner, 128, device="cpu", beams=beams) for beams in (True, False))
+    assert np.array_equal(with_.aov("status"), without.aov("status"))
+    assert with_.unresolved > 50
+
+
 def test_whole_pictures_and_sums_have_beams() -> None:
     for surface, options in (("torus", {}), ("blinn-blobby", {"draft": True})):
         device = Noting("cpu")

@@ -42,6 +42,9 @@ def test_the_outputs_fit_together(image: zs.Image) -> None:
 def test_unknown_outputs_are_named(image: zs.Image) -> None:
     with pytest.raises(ZerosetError, match="did you mean depth"):
         image.aov("deph")
+    for nothing in (3, None, ["depth"], np.arange(2)):
+        with pytest.raises(ZerosetError, match=r"there is no output(.|\n)*there are depth, normal"):
+            image.aov(nothing)  # type: ignore[arg-type]
     assert {name: image.aov(name).shape[:2] for name in AOVS} == dict.fromkeys(AOVS, (32, 48))
 
 

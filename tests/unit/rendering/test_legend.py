@@ -10,8 +10,8 @@ from PIL import Image as Pillow
 
 import zeroset as zs
 from zeroset.errors import ZerosetError
-from zeroset.rendering.legend import Key, bar_colors, with_legend
-from zeroset.rendering.ticks import labels, ticks
+from zeroset.rendering.legend import Key, bar_colors, map_colors, with_legend
+from zeroset.rendering.ticks import exact_labels, labels, ticks
 
 KEY = Key("Gaussian curvature", "coolwarm", (-2.0, 2.0), below=True, above=True, missing=True)
 
@@ -53,6 +53,50 @@ def test_the_bar_runs_from_the_first_colour_at_the_bottom() -> None:
     assert len(places) >= 10
     assert len({y for _, y in places}) == 1
     assert bar[0].mean() > bar[-1].mean() + 150
+
+
+@pytest.mark.parametrize("values", [(0.0,), (-4.0, 0.0, 0.5, 6.0), tuple(map(float, range(16)))])
+@pytest.mark.parametrize("colors", ["lagoon", "wheel"])
+def test_a_few_values_have_a_block_of_their_colour_each(values: tuple[float, ...], colors: str) -> None:
+    range_ = (-2.0, 7.0)
+    made = with_legend(plain((600, 600), 255), Key("isovalue", colors, range_, values=values))
+    shares = (np.array(values) + 2.0) / 9.0
+    expected = [tuple(c) for c in map_colors(colors, shares)[::-1].tolist()]
+    assert sum(_run(made[:, x], expected) for x in range(300, 600)) >= 10
+
+
+def _run(column: np.ndarray, expected: list[tuple[int, ...]]) -> bool:
+    """Whether the colours of a column from its top are these, each over some pixels, and then no more of them."""
+    seen = [tuple(c) for c in column.tolist() if tuple(c) in expected]
+    kept = [c for i, c in enumerate(seen) if i == 0 or c != seen[i - 1]]
+    return kept == [c for i, c in enumerate(expected) if i == 0 or c != expected[i - 1]]
+
+
+def test_the_legend_of_isovalues_has_the_colours_that_the_surface_has() -> None:
+    shells = zs.surface("x^2 + y^2 + z^2", bounds=zs.Box((-2, 0, -2), (2, 2, 2))).with_isovalues((0.25, 1.0, 2.25))
+    flat = zs.Material(ambient=1.0, diffuse=0.0, specular=0.0, coloring="isovalue")
+    image = zs.render(shells, 300, zs.Camera((0, -9, 0), (0, 0, 0), fov=25), material=flat, device="cpu")
+    assert image.values == (0.25, 1.0, 2.25)
+    legend = image.legend()
+    for y, x in ((150, 150 + 17), (150, 150 + 50), (150, 150 + 100)):
+        color = image.pixels[y, x].astype(int)
+        near = np.abs(legend[:, 240:].astype(int) - color).max(axis=-1) <= 2
+        assert near.sum() > 50
+    assert zs.render(shells, 32, color_by="depth").values == ()
+
+
+@pytest.mark.parametrize(
+    ("values", "texts"),
+    [
+        ((0.0, 0.25, 1.0), ["0", "0.25", "1"]),
+        ((-1.5, 0.0, 6.0), ["-1.5", "0", "6"]),
+        ((1e-7, 2e7), ["1e-7", "2e7"]),
+        ((0.12345678, 0.12345679), ["0.12345678", "0.12345679"]),
+        ((1.0 / 3.0,), ["0.3333"]),
+    ],
+)
+def test_values_that_somebody_chose_are_written_as_they_are(values: tuple[float, ...], texts: list[str]) -> None:
+    assert exact_labels(values) == texts
 
 
 def test_arrows_and_a_patch_only_where_there_is_something_to_say() -> None:

@@ -2,11 +2,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 from tests.gpus import no_gpu
 
+import zeroset as zs
 from zeroset.errors import DeviceError
 from zeroset.kernel import F32, F64, Kernel, KernelBuilder, load, store
 from zeroset.runtime import DEVICES, Device, Signature, get_device, registry
@@ -66,6 +68,14 @@ def test_auto_falls_back_to_the_cpu_when_the_gpu_goes(monkeypatch: pytest.Monkey
     assert get_device("auto").name == "cpu"
     with pytest.raises(DeviceError, match="taken away"):
         get_device("gpu")
+
+
+@pytest.mark.parametrize("device", [3, None, 1.5, ["cpu"], object(), zs.gallery])
+def test_what_is_no_device(device: Any) -> None:
+    with pytest.raises(DeviceError, match=r"a device is a name or a Device, not(.|\n)*there are cpu, gpu, interp"):
+        get_device(device)
+    with pytest.raises(DeviceError, match="a device is a name"):
+        zs.render("x", 16, device=device)
 
 
 def test_a_device_that_is_not_there() -> None:

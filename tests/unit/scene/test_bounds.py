@@ -52,6 +52,8 @@ def test_what_users_write(given: Any, made: Any) -> None:
         ([(0, 0, 0), (1, 0, 1)], "empty"),
         ([(0, 0, 0), (1, math.inf, 1)], "finite"),
         ([(0, 0, 0), (1, 1e15, 1)], "below 1e"),
+        (1e15, r"at least 1e-15 and below 1e\+15, not"),
+        (1e-16, "at least 1e-15"),
     ],
 )
 def test_bad_bounds_are_refused(given: Any, said: str) -> None:

@@ -115,6 +115,7 @@ def test_solids_may_share_surfaces_and_be_drawn_beside_each_other() -> None:
 
 ONE = '[[surfaces]]\nname = "a"\nformula = "x"\n'
 TWO = ONE + '[[surfaces]]\nname = "b"\nformula = "y"\n'
+CIRCLE = '[[surfaces]]\nname = "s"\n\nsolid = "a - t"\n[[surfaces]]\nname = "t"\nsolid = "a | s"\n'
 
 
 def test_a_name_that_several_have_is_kept_by_the_first() -> None:
@@ -146,8 +147,16 @@ def test_a_name_that_several_have_is_kept_by_the_first() -> None:
         (ONE + '[[surfaces]]\nname = "b"\nformula = "x +"\n', 6, "value is missing"),
         (ONE + '[[surfaces]]\nname = "b"\nformula = "x"\nbounds = 0\n', 7, "radius"),
         (ONE + '[[surfaces]]\nname = "b"\nformula = "x"\nsize = 0\n', 7, "surface has no 'size'"),
-        (ONE + '[[surfaces]]\nname = "s"\nsolid = "a - s"\n', 6, "no surface named 's' before"),
-        (ONE + '[[surfaces]]\nname = "s"\nsolid = "a - t"\n' + ONE.replace('"a"', '"t"'), 6, "named 't' before"),
+        (ONE + '[[surfaces]]\nname = "s"\nsolid = "a - s"\n', 6, "'s' would be part of itself"),
+        (
+            ONE + '[[surfaces]]\nname = "s"\nsolid = "a - t"\n' + ONE.replace('"a"', '"t"'),
+            6,
+            r"'t' stands after this solid(.|\n)*put it before",
+        ),
+        (ONE + CIRCLE, 7, r"'s' would be part of itself, by way of 't'(.|\n)*leave it out"),
+        ('[[surfaces]]\nsolid = "a - u"\n' + ONE, 2, "'a' stands after this solid"),
+        (ONE + '[[surfaces]]\nname = "s"\nsolid = "a - u"\n' + ONE.replace('"a"', '"t"'), 6, "no surface named 'u'"),
+        (ONE + '[[surfaces]]\nname = "s"\nsolid = "a - ("\n', 6, "this is no solid"),
         (ONE + '[[surfaces]]\nsolid = "~a"\nmaterial = {ior = 2}\n', 6, "no material of its own"),
         ('formula = "x"\nisovalues = [1, 1]', 2, "twice"),
         ('formula = "x"\nisovalues = "a"', 2, "isovalue"),

@@ -88,6 +88,8 @@ def test_a_surface_cannot_be_changed_in_place_but_copied() -> None:
         (None, {}, FormulaError, "NoneType"),
         (3.0, {}, FormulaError, "float"),
         (sympy.Symbol("x") * 0 + 1, {}, FormulaError, "none of the variables"),
+        (sympy.Function("f")(sympy.Symbol("x")), {}, FormulaError, r"SymPy's f has no meaning"),
+        (sympy.Function("f"), {}, FormulaError, "has no meaning"),
         (lambda x, y: x, {}, FormulaError, "2 arguments"),
         (lambda x, y, z: (x, y), {}, FormulaError, "tuple"),
         (lambda x, y, z: x if x > 0 else y, {}, FormulaError, "np.where"),

@@ -75,3 +75,12 @@ def test_a_wall_of_a_solid_beside_large_numbers() -> None:
     found = zs.cast(solid, [[-5.0, 0.1, 0.2], [-5.0, 1.5, 0.0]], [1.0, 0.0, 0.0], device="cpu")
     assert found.status.tolist() == [HIT, MISS]
     assert found.t[0] == pytest.approx(4.0, abs=0.01)
+
+
+def test_bounds_that_are_fitted_tell_as_well() -> None:
+    for formula, large in (("(x^2 + y^2 + z^2 - 1)*1e35", True), ("x^16 + y^16 + z^16 = 1", False)):
+        surface = zs.surface(formula)
+        assert zs.render(surface, 32, device="cpu").hits > 300
+        found = zs.cast(zs.surface(formula), [-5.0, 0.0, 0.0], [1.0, 0.0, 0.0], device="cpu")
+        assert (found.status[0], found.t[0]) == (HIT, pytest.approx(4.0, abs=1e-3))
+        assert surface.drawn_in(surface.fitted).large == large

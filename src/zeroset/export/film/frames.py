@@ -18,10 +18,11 @@ import numpy.typing as npt
 
 from zeroset.atomic import replacing
 from zeroset.errors import OutputError
+from zeroset.export.film.claim import make_folder
 
 Pixels = npt.NDArray[np.uint8]
 MANIFEST = "manifest.json"
-_OURS = re.compile(r"\d{6}\.png|manifest\.json|movie\.(mp4|gif)|\.zeroset-[0-9a-f]+\.part")
+_OURS = re.compile(r"\d{6}\.png|manifest\.json|movie(-\d+)?\.(mp4|gif)|\.zeroset-[0-9a-f]+\.part")
 
 
 class Pictures(Protocol):
@@ -60,10 +61,7 @@ class Frames:
         Raises:
             OutputError: it holds frames of another animation, or is somebody else's.
         """
-        try:
-            self.folder.mkdir(exist_ok=True)
-        except OSError as error:
-            raise OutputError(f"cannot make the folder {str(self.folder)!r}: {error.strerror or error}") from None
+        make_folder(self.folder)
         held = self._read()
         if held is None and (strange := _foreign(self.folder)):
             raise OutputError(
@@ -112,7 +110,7 @@ class Frames:
         """Whether a frame is there and can be read."""
         try:
             return self.path(index).exists() and bool(self[index].size)
-        except (OSError, SyntaxError, ValueError):
+        except OSError:
             # What a power failure left is drawn again.
             return False
 
@@ -122,13 +120,33 @@ class Frames:
             file.write(png)
 
     def __getitem__(self, index: int) -> Pixels:
-        """A frame's pixels, (height, width, 3)."""
+        """A frame's pixels, (height, width, 3).
+
+        Raises:
+            OutputError: it is gone, or is damaged.
+        """
         if not 0 <= index < self._count:
             raise IndexError(index)
         from PIL import Image as Pillow
 
-        with Pillow.open(self.path(index)) as image:
+        with self._told_of(index), Pillow.open(self.path(index)) as image:
             return np.asarray(image.convert("RGB"))
+
+    def png(self, index: int) -> bytes:
+        """A frame's file; raises ``OutputError`` where it is gone."""
+        with self._told_of(index):
+            return self.path(index).read_bytes()
+
+    @contextlib.contextmanager
+    def _told_of(self, index: int) -> Iterator[None]:
+        try:
+            yield
+        except (OSError, SyntaxError, ValueError) as error:
+            # Somebody has removed the folder, or another process has finished with it.
+            reason = (error.strerror if isinstance(error, OSError) else None) or "it is damaged"
+            raise OutputError(
+                f"cannot read the frame {str(self.path(index))!r}: {reason}", hint="the same once more draws it again"
+            ) from None
 
     def close(self) -> None:
         """Remove what is ours of the folder, and the folder if nothing else is in it."""
@@ -138,7 +156,7 @@ class Frames:
 
     def _clear(self) -> None:
         # The manifest at last: without it the rest would be nobody's.
-        for path in sorted(self.folder.iterdir(), key=lambda path: path.name == MANIFEST):
+        for path in sorted(_entries(self.folder), key=lambda path: path.name == MANIFEST):
             if _OURS.fullmatch(path.name):
                 with contextlib.suppress(OSError):
                     path.unlink()
@@ -146,4 +164,12 @@ class Frames:
 
 def _foreign(folder: Path) -> str:
     """The name of something in a folder, or nothing."""
-    return min((path.name for path in folder.iterdir() if not path.name.startswith(".zeroset-")), default="")
+    return min((path.name for path in _entries(folder) if not path.name.startswith(".zeroset-")), default="")
+
+
+def _entries(folder: Path) -> list[Path]:
+    """What is in a folder; nothing where it is gone."""
+    try:
+        return list(folder.iterdir())
+    except OSError:
+        return []

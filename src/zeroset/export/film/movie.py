@@ -62,6 +62,8 @@ def write_mp4(scratch: Path, frames: Pictures, fps: Fraction, quality: str, prog
                 progress(i / len(frames))
             container.mux(stream.encode())
         _check(scratch, len(frames))
+    except OutputError:
+        raise
     except (av.error.FFmpegError, OSError) as error:
         reason = error.strerror or str(error)
         raise OutputError(

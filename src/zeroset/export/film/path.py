@@ -136,7 +136,10 @@ def read_number(text: str) -> float:
     found = _NUMBER.fullmatch(text.strip())
     if not found or not (found["factor"] or found["pi"]):
         raise ValueError(text)
-    value = float(found["factor"] or 1.0) * (math.pi if found["pi"] else 1.0) / float(found["by"] or 1.0)
+    by = float(found["by"] or 1.0)
+    if by == 0.0:
+        raise ValueError(text)
+    value = float(found["factor"] or 1.0) * (math.pi if found["pi"] else 1.0) / by
     return -value if found["sign"] == "-" else value
 
 
@@ -157,7 +160,7 @@ def read_motion(name: str, text: str) -> Motion:
         times = int(rest[2]) if len(rest) > 2 else 1
         if len(rest) > 3:
             raise ValueError
-    except (ValueError, IndexError, ZeroDivisionError):
+    except (ValueError, IndexError):
         raise ParameterError(
             f"cannot read how {name} moves: {text!r}",
             hint=f"write {name}=1:5, or {name}=1:5:sine, or {name}=0:2pi:loop:3 for three times",

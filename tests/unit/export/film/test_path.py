@@ -45,7 +45,7 @@ def test_numbers(text: str, value: float) -> None:
     assert read_number(text) == value
 
 
-@pytest.mark.parametrize("text", ["", "x", "1:", "pi2:3", "/2", "1 2", "--1", "nan", "inf"])
+@pytest.mark.parametrize("text", ["", "x", "1:", "pi2:3", "/2", "1 2", "--1", "nan", "inf", "pi/0", "1/0.0"])
 def test_what_is_no_number(text: str) -> None:
     with pytest.raises(ValueError, match=r".*"):
         read_number(text)
