@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -217,7 +218,8 @@ def _number(token: Token) -> Fraction:
             length=len(token.text),
             hints=("double precision holds 16 digits, and powers of ten up to 308",),
         )
-    return Fraction(token.text)
+    # A half in one character decomposes to 1, a slash of fractions, and 2.
+    return Fraction(unicodedata.normalize("NFKC", token.text).replace("\u2044", "/"))
 
 
 def _whole(text: str) -> int:

@@ -25,9 +25,10 @@ __all__ = ["tokens"]
 
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _LETTER_CONSTANTS = {"π": "pi", "φ": "phi", "ϕ": "phi"}
-_SPECIAL = _SUPERSCRIPTS + "".join(_LETTER_CONSTANTS)
+_FRACTIONS = "¼½¾⅐⅑⅒⅓⅔⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
+_SPECIAL = _SUPERSCRIPTS + _FRACTIONS + "".join(_LETTER_CONSTANTS)
 _PATTERN = re.compile(
-    rf"(?P<NUMBER>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    rf"(?P<NUMBER>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[{_FRACTIONS}])"
     rf"|(?P<LETTER>[{''.join(_LETTER_CONSTANTS)}])"
     rf"|(?P<NAME>[^\W\d{_SPECIAL}][^\W{_SPECIAL}]*)"
     rf"|(?P<SUPERSCRIPT>⁻?[{_SUPERSCRIPTS}]+)"
