@@ -6,7 +6,10 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from zeroset.rendering.legend import bar_colors
+import numpy as np
+
+from zeroset.rendering.legend import bar_colors, map_colors
+from zeroset.rendering.ticks import exact_labels
 from zeroset.view import theme
 from zeroset.view.controls import Pane
 from zeroset.view.lines import strokes
@@ -64,23 +67,37 @@ def _lines(state: State, context: Context, pane: Pane, pen: Any) -> None:
 
 
 def _legend(imgui: Any, pen: Any, legend: Legend, pane: Pane) -> None:
-    """A bar of the colours with its ends."""
+    """A bar of the colours with its ends, or a block for each value where these are few."""
     width, height = 220.0, 12.0
     x, y = pane.x + pane.width - width - 24, pane.y + 44
     pen.add_rect_filled((x - 12, y - 30), (x + width + 12, y + height + 26), packed(imgui, SHADE, 0.82), 6.0)
     pen.add_text((x, y - 24), packed(imgui, theme.TEXT), legend.title)
-    colors = bar_colors(legend.map, 33) if legend.map else HEAT
-    tints = [tuple(float(c) / 255 for c in color) for color in colors]
-    if not (legend.heat or legend.map):
-        tints = [(0.16,) * 3, (1.0,) * 3]
-    for i, (left, right) in enumerate(pairwise(tints)):
-        a, b = (x + width * (i + k) / (len(tints) - 1) for k in (0, 1))
-        ends = (packed(imgui, left), packed(imgui, right))
-        pen.add_rect_filled_multi_color((a, y), (b, y + height), ends[0], ends[1], ends[1], ends[0])
-    high = f"{legend.high:.4g}"
-    pen.add_text((x, y + height + 4), packed(imgui, theme.FAINT), f"{legend.low:.4g}")
-    place = x + width - imgui.calc_text_size(high).x
-    pen.add_text((place, y + height + 4), packed(imgui, theme.FAINT), high)
+    _bar(imgui, pen, legend, (x, y, width, height))
+    faint, texts = packed(imgui, theme.FAINT), [f"{legend.low:.4g}", f"{legend.high:.4g}"]
+    if legend.values:
+        texts = exact_labels(legend.values)
+        each = width / len(texts)
+        if max(imgui.calc_text_size(text).x for text in texts) + 4 <= each:
+            for i, text in enumerate(texts):
+                place = x + each * (i + 0.5) - imgui.calc_text_size(text).x / 2
+                pen.add_text((place, y + height + 4), faint, text)
+            return
+    pen.add_text((x, y + height + 4), faint, texts[0])
+    pen.add_text((x + width - imgui.calc_text_size(texts[-1]).x, y + height + 4), faint, texts[-1])
+
+
+def _bar(imgui: Any, pen: Any, legend: Legend, place: tuple[float, float, float, float]) -> None:
+    x, y, width, height = place
+    if legend.values:
+        shares = (np.asarray(legend.values) - legend.low) / (legend.high - legend.low)
+        pairs = [(color, color) for color in map_colors(legend.map, shares)]
+    else:
+        colors = bar_colors(legend.map, 33) if legend.map else HEAT
+        pairs = list(pairwise(colors if legend.heat or legend.map else [(41,) * 3, (255,) * 3]))
+    for i, pair in enumerate(pairs):
+        a, b = (x + width * (i + k) / len(pairs) for k in (0, 1))
+        left, right = (packed(imgui, tuple(float(c) / 255 for c in color)) for color in pair)
+        pen.add_rect_filled_multi_color((a, y), (b, y + height), left, right, right, left)
 
 
 def numbers(state: State, context: Context) -> list[tuple[str, theme.Color]]:

@@ -34,6 +34,7 @@ class Legend:
         high: value of the last one.
         heat: whether the colours are those of the heat map; grey from dark to bright otherwise.
         map: the colour map of a surface that is coloured by a quantity; "" for an overlay.
+        values: the values that there are, rising, where these are few.
     """
 
     title: str
@@ -41,6 +42,7 @@ class Legend:
     high: float
     heat: bool = True
     map: str = ""
+    values: tuple[float, ...] = ()
 
 
 def heat(share: npt.NDArray[Any]) -> Pixels:
@@ -69,7 +71,8 @@ def coloured(image: Image, overlay: str) -> tuple[Pixels, Legend | None]:
         return _unresolved(image), None
     if image.coloring is not None and image.range is not None:
         low, high = image.range
-        return image.pixels, Legend(image.coloring.quantity.title, low, high, map=image.coloring.chosen_map)
+        title, map_ = image.coloring.quantity.title, image.coloring.chosen_map
+        return image.pixels, Legend(title, low, high, map=map_, values=image.values)
     return image.pixels, None
 
 

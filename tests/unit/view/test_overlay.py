@@ -68,3 +68,12 @@ def test_an_empty_picture_has_every_overlay(overlay: str) -> None:
 def test_the_heat_map_takes_anything() -> None:
     assert heat(np.array([-1.0, 2.0, np.nan])).shape == (3, 3)
     assert np.all(np.diff(heat(np.linspace(0, 1, 50)).astype(float) @ (0.2126, 0.7152, 0.0722)) > -1.0)
+
+
+def test_a_few_values_are_told_each() -> None:
+    shells = zs.surface("x^2 + y^2 + z^2", bounds=1.5).with_isovalues((0.25, 1.0, 2.0))
+    image = zs.render(shells, 24, material=zs.Material(coloring="isovalue"), device="cpu")
+    _, legend = coloured(image, "none")
+    assert legend is not None
+    assert legend.values == (0.25, 1.0, 2.0)
+    assert (legend.low, legend.high) == (0.25, 2.0)
