@@ -8,19 +8,18 @@ Whoever draws asks here first, once for each set of parameters and bounds, and p
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from zeroset.expr.constants import enclose
 from zeroset.expr.dag import postorder
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Mapping
 
     from zeroset.expr.dag import Expr
 
 __all__ = ["Magnitude"]
 
-Sizes = tuple[float, ...]
 _BOUNDED = 4.0
 """More than any angle or wave."""
 _WATCHED = 1.0
@@ -41,8 +40,10 @@ class Magnitude:
     """
 
     def __init__(self, expr: Expr) -> None:
-        self._parts = tuple(postorder(expr))
-        self._places = {part: i for i, part in enumerate(self._parts)}
+        parts = tuple(postorder(expr))
+        places = {part: i for i, part in enumerate(parts)}
+        # For each part its rule, what it takes beside sizes, and where those of its arguments are.
+        self._steps = tuple((*_rule(part), tuple(places[arg] for arg in part.args)) for part in parts)
 
     def largest(self, sizes: Mapping[str, float], arrays: Mapping[str, tuple[float, int]]) -> float:
         """The largest value of any part.
@@ -55,36 +56,41 @@ class Magnitude:
             A bound, to within rounding; infinite where it is beyond what a float holds.
         """
         known: list[float] = []
-        for part in self._parts:
-            size = self._size(part, known, sizes, arrays)
+        for rule, data, places in self._steps:
+            if rule is None:
+                size = data
+            elif rule == "name":
+                size = sizes[data]
+            elif rule == "element":
+                size = arrays[data][0]
+            elif rule == "sum":
+                size = known[places[0]] * max(arrays[name][1] for name in data)
+            elif rule == "power":
+                size = _power(known[places[0]], data)
+            else:
+                size = rule(*[known[place] for place in places])
             # Infinity times 0 is no number, and no promise.
-            known.append(math.inf if math.isnan(size) else size)
+            known.append(size if size == size else math.inf)
         return max(known, default=0.0)
 
-    def _size(
-        self,
-        part: Expr,
-        known: Sequence[float],
-        sizes: Mapping[str, float],
-        arrays: Mapping[str, tuple[float, int]],
-    ) -> float:
-        args = tuple(known[self._places[arg]] for arg in part.args)
-        match part.op:
-            case "const":
-                return max(map(abs, enclose(part)))
-            case "variable" | "parameter":
-                return sizes[str(part.data[0])]
-            case "element":
-                return arrays[str(part.data[0])][0]
-            case "sum":
-                return args[0] * max(arrays[str(name)][1] for name in part.data[1:])
-            case "powi":
-                return _power(args[0], abs(int(part.data[0])))
-            case "powr":
-                over, under = part.data
-                return _power(max(args[0], 1.0), float(over) / float(under))
-        rule = _RULES.get(part.op)
-        return _WATCHED if rule is None else rule(args)
+
+def _rule(part: Expr) -> tuple[Any, Any]:
+    """How a part's size comes of those of its arguments, and what else that takes: a size itself for None."""
+    match part.op:
+        case "const":
+            return None, max(map(abs, enclose(part)))
+        case "variable" | "parameter":
+            return "name", str(part.data[0])
+        case "element":
+            return "element", str(part.data[0])
+        case "sum":
+            return "sum", tuple(map(str, part.data[1:]))
+        case "powi":
+            return "power", float(abs(int(part.data[0])))
+        case "powr":
+            over, under = part.data
+            return "power", max(float(over) / float(under), 1.0)
+    return (_RULES[part.op], None) if part.op in _RULES else (None, _WATCHED)
 
 
 def _power(size: float, exponent: float) -> float:
@@ -94,34 +100,35 @@ def _power(size: float, exponent: float) -> float:
         return math.inf
 
 
-def _sum(args: Sizes) -> float:
-    return sum(args)
+def _sum(a: float, b: float) -> float:
+    return a + b
 
 
-def _itself(args: Sizes) -> float:
-    return args[0]
+def _itself(a: float) -> float:
+    return a
 
 
-def _choice(args: Sizes) -> float:
+def _at_least_one(a: float) -> float:
+    return max(a, 1.0)
+
+
+def _step(a: float) -> float:
+    return a + 1.0
+
+
+def _choice(*args: float) -> float:
     return max(args[-2:])
 
 
-_RULES: Mapping[str, Callable[[Sizes], float]] = {
-    "add": _sum,
-    "sub": _sum,
-    "mod": _sum,
-    "mul": math.prod,
-    "sqr": lambda args: args[0] * args[0],
-    "neg": _itself,
-    "abs": _itself,
-    "sqrt": lambda args: max(args[0], 1.0),
-    "cbrt": lambda args: max(args[0], 1.0),
-    "floor": lambda args: args[0] + 1.0,
-    "ceil": lambda args: args[0] + 1.0,
-    "min": _choice,
-    "max": _choice,
-    "select": _choice,
-    **dict.fromkeys(("sin", "cos", "asin", "acos", "atan", "atan2", "tanh", "sign"), lambda args: _BOUNDED),
-    **dict.fromkeys(("lt", "le", "and", "or", "not"), lambda args: 0.0),
+_RULES: Mapping[str, Callable[..., float]] = {
+    **dict.fromkeys(("add", "sub", "mod"), _sum),
+    "mul": lambda a, b: a * b,
+    "sqr": lambda a: a * a,
+    **dict.fromkeys(("neg", "abs"), _itself),
+    **dict.fromkeys(("sqrt", "cbrt"), _at_least_one),
+    **dict.fromkeys(("floor", "ceil"), _step),
+    **dict.fromkeys(("min", "max", "select"), _choice),
+    **dict.fromkeys(("sin", "cos", "asin", "acos", "atan", "atan2", "tanh", "sign"), lambda *args: _BOUNDED),
+    **dict.fromkeys(("lt", "le", "and", "or", "not"), lambda *args: 0.0),
 }
 """What is not here, such as an exponential or a quotient, is watched over."""

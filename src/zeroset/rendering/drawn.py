@@ -59,6 +59,8 @@ class Drawn(NamedTuple):
 
     def with_fitted_bounds(self) -> Drawn:
         """The same, once all bounds are known: they tell how large numbers may get."""
+        if all(thing.bounds for _, thing in self.bounded):
+            return self
         for _, thing in self.bounded:
             # It is kept.
             thing.fitted  # noqa: B018
