@@ -10,6 +10,8 @@ from zeroset.view import theme
 
 REMOVE = "\uf00d"
 """Icon of Font Awesome: a cross."""
+LARGEST = 1e30
+"""Size of a number that can be typed into a slider."""
 SMALL = 28.0
 """Width of a button with an icon."""
 ROOM = SMALL + 8.0
@@ -39,7 +41,8 @@ def slider(
     label(imgui, text, hint)
     flags = imgui.SliderFlags_.no_round_to_format | (imgui.SliderFlags_.logarithmic if logarithmic else 0)
     changed, value = imgui.slider_float(f"##{text}", value, span[0], span[1], form, flags)
-    return changed, float(value)
+    # What is typed may be more than a float32 holds.
+    return changed, min(max(float(value), -LARGEST), LARGEST)
 
 
 def checkbox(imgui: Any, text: str, value: bool, hint: str = "") -> bool:

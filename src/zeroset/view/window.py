@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from zeroset.view import hud, theme
 from zeroset.view.atlas import Atlas
 from zeroset.view.canvas import device_on, plain_format
 from zeroset.view.controls import Pane
+from zeroset.view.guard import Guard
 from zeroset.view.panels import PANELS, formula, surfaces
 from zeroset.view.panels.context import Context
 from zeroset.view.picture import PictureView
 from zeroset.view.session import Session
 from zeroset.view.standin import slow_to_compile
+from zeroset.view.state import State
 from zeroset.view.thumbnails import Thumbnails
 
 LINGER = 6
@@ -50,6 +53,7 @@ class Window:
         self._cursor = "default"
         self._editing = False
         theme.apply(imgui)
+        self._guard = Guard(imgui, session.notes.say)
         device_name = "cpu" if slow_to_compile(session.state.device) else session.state.device
         self._thumbnails = Thumbnails(device_name, lambda: session.resting, self._wake)
         atlas = Atlas(device, self._panels.backend.register_texture, self._thumbnails)
@@ -143,13 +147,13 @@ class Window:
         flags = imgui.WindowFlags_.no_decoration & ~imgui.WindowFlags_.no_scrollbar
         flags |= imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_saved_settings
         imgui.begin("##sidebar", None, flags | imgui.WindowFlags_.no_bring_to_front_on_focus)
-        state = surfaces.draw(state, self._context)
-        state = formula.draw(state, self._context)
+        for always in (surfaces.draw, formula.draw):
+            state = self._guarded(always, state)
         for title, draw, opened in PANELS:
             imgui.set_next_item_open(opened(state), imgui.Cond_.first_use_ever)
             if imgui.collapsing_header(title):
                 imgui.push_id(title)
-                state = draw(state, self._context)
+                state = self._guarded(draw, state)
                 imgui.pop_id()
                 imgui.spacing()
         imgui.end()
@@ -159,6 +163,9 @@ class Window:
         hud.draw(self._session.state, self._context, pane)
         self._follow_cursor()
         self._show_picture()
+
+    def _guarded(self, draw: Callable[[State, Context], State], state: State) -> State:
+        return self._guard.drawn(state, lambda known: draw(known, self._context))
 
     def _follow_cursor(self) -> None:
         """Show the pointer that the panels want, and keep the text cursor blinking."""

@@ -181,6 +181,16 @@ def test_a_light_stays_where_it_is_seen() -> None:
     assert light_panel.direction(around, height) == pytest.approx(unit)
 
 
+def test_a_lamp_that_is_dragged_becomes_a_light_far_away() -> None:
+    camera = zs.Camera(eye=(0.0, -4.0, 0.0))
+    for headlight, place in ((False, (3.0, 0.0, 0.0)), (True, (3.0, 0.0, -4.0))):
+        lamp = zs.Light(position=place, headlight=headlight)
+        assert light_panel.seen(lamp, camera) == pytest.approx((1.0, 0.0, 0.0))
+        dragged = light_panel.placed(lamp, camera, (0.0, 1.0, 0.0))
+        assert dragged.position is None
+        assert light_panel.seen(dragged, camera) == pytest.approx((0.0, 1.0, 0.0))
+
+
 def test_ball_and_box_hold_one_another() -> None:
     assert bounds_panel.other(zs.Ball(1.0, (1, 2, 3))) == zs.Box((0, 1, 2), (2, 3, 4))
     ball = bounds_panel.other(zs.Box((0, 0, 0), (2, 2, 1)))

@@ -17,6 +17,8 @@ from zeroset.view.state import State
 from zeroset.view.widgets import checkbox, choice, color, packed, slider
 
 RADIUS = 46.0
+STRONGEST = 1000.0
+"""Strength that can be typed."""
 EDGES = {1: "one ray", 4: "4 rays", 16: "16 rays", 64: "64 rays"}
 """Rays of each pixel at an edge, and what they are called."""
 
@@ -52,14 +54,14 @@ def _key(imgui: Any, state: State) -> State:
     imgui.set_next_item_width(-1.0)
     changed, wanted = imgui.slider_float("##strength", strength, 0.0, 3.0, "strength %.2f")
     if changed and strength > 0:
-        red, green, blue = (v * max(float(wanted), 1e-3) / strength for v in key.color)
+        red, green, blue = (v * min(max(float(wanted), 1e-3), STRONGEST) / strength for v in key.color)
         key = replace(key, color=(red, green, blue))
     imgui.end_group()
     changed, tint = color(imgui, "tint", _normal(key.color))
     if changed and max(tint) > 0:
         red, green, blue = (v / max(tint) * strength for v in tint)
         key = replace(key, color=(red, green, blue))
-    azimuth, height = angles(key.direction)
+    azimuth, height = angles(_toward(key, state.camera))
     turned, azimuth = slider(imgui, "around", azimuth, (-180.0, 180.0), "%.0f degrees")
     lifted, height = slider(imgui, "height", height, (-90.0, 90.0), "%.0f degrees")
     if turned or lifted:
@@ -94,20 +96,30 @@ def direction(azimuth: float, height: float) -> Vector:
 
 def seen(light: Light, camera: Camera) -> Vector:
     """The light's direction in the camera's coordinates: right, up, back."""
+    toward = np.asarray(_toward(light, camera))
     if light.headlight:
-        return _unit(light.direction)
+        x, y, z = (float(v) for v in toward)
+        return _unit((x, y, z))
     right, up, forward = orbit.frame(camera)
-    toward = np.asarray(light.direction)
     return _unit((float(toward @ right), float(toward @ up), float(-(toward @ forward))))
 
 
 def placed(light: Light, camera: Camera, toward: Vector) -> Light:
-    """The light with a direction given in the camera's coordinates."""
+    """The light with a direction given in the camera's coordinates; one at a place becomes one far away."""
     if light.headlight:
-        return replace(light, direction=toward)
+        return replace(light, direction=toward, position=None)
     right, up, forward = orbit.frame(camera)
     x, y, z = (float(v) for v in toward[0] * right + toward[1] * up - toward[2] * forward)
-    return replace(light, direction=(x, y, z))
+    return replace(light, direction=(x, y, z), position=None)
+
+
+def _toward(light: Light, camera: Camera) -> Vector:
+    """The direction that a light comes from, at the camera's target; of a headlight, from the camera's axes."""
+    if light.position is None:
+        return light.direction
+    target = (0.0, 0.0, -math.dist(camera.eye, camera.target)) if light.headlight else camera.target
+    x, y, z = (p - t for p, t in zip(light.position, target, strict=True))
+    return (x, y, z) if (x, y, z) != (0.0, 0.0, 0.0) else light.direction
 
 
 def _unit(toward: Vector) -> Vector:
@@ -121,7 +133,7 @@ def _fixed(imgui: Any, light: Light, camera: Camera) -> Light:
     along = checkbox(imgui, "headlight", light.headlight, "moves with the camera; otherwise it stays in the scene")
     if along == light.headlight:
         return light
-    return placed(replace(light, headlight=along), camera, seen(light, camera))
+    return placed(replace(light, headlight=along, position=None), camera, seen(light, camera))
 
 
 def _ball(imgui: Any, light: Light, camera: Camera) -> Light:
