@@ -11,6 +11,7 @@ import threading
 import weakref
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
@@ -212,10 +213,12 @@ class Frame:
                 progress(first / lanes)
             self._tracer.first_look(uniforms, bound, first, min(part, lanes - first))
             self.device.submit()
+        # The rays that take longest come last: who waits may want to give up even then.
+        pause = None if progress is None else partial(progress, 1.0)
         if not draft:
-            self._tracer.second_look(drawn, uniforms, bound)
+            self._tracer.second_look(drawn, uniforms, bound, pause)
         if thin and not draft:
-            self._tracer.thin_parts(drawn, uniforms, bound, self.layout.tiles)
+            self._tracer.thin_parts(drawn, uniforms, bound, self.layout.tiles, pause)
         kept = self._fields
         range_: tuple[float, float] | None = None
         if self._colors is not None and palette is not None:

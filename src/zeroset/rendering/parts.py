@@ -51,9 +51,12 @@ class _State(NamedTuple):
 
 
 def parts_kernel(shape: Shape, offset: bool, ends: Ends = ()) -> Kernel:
-    """One pixel of which parts are left; ``ends``: what lies around the find is kept, for rays that go on."""
+    """One pixel of which parts are left; ``ends``: what lies around the find is kept, for rays that go on.
+
+    Uniform: ``listed``, where on the list the run begins.
+    """
     with KernelBuilder("parts") as builder:
-        place = load(builder.buffer("thin_left", U32), builder.index())
+        place = load(builder.buffer("thin_left", U32), builder.index() + builder.uniform("listed", U32))
         lane = load(builder.buffer(THIN_PIXEL, U32), place)
         subject = Subject(shape, builder, F64, offset)
         pixel = _Pixel(builder, subject, lane, place)

@@ -126,9 +126,12 @@ def trace_kernel(shape: Shape, method: Method, pixels: bool, beams: bool, second
 
 
 def second_kernel(shape: Shape, offset: bool, pixels: bool, ends: Ends = (), beams: bool = False) -> Kernel:
-    """The rays on the list again, in f64; ``beams``: what they are shown to miss may be thinner than a pixel."""
+    """The rays on the list again, in f64; ``beams``: what they are shown to miss may be thinner than a pixel.
+
+    Uniform: ``listed``, where on the list the run begins.
+    """
     with KernelBuilder("second") as builder:
-        place = builder.index()
+        place = builder.index() + builder.uniform("listed", U32)
         lane, clear = (load(builder.buffer(name, type_), place) for name, type_ in SECOND.items())
         subject = Subject(shape, builder, F64, offset)
         ray = camera_ray(builder, lane) if pixels else given_ray(builder, lane)

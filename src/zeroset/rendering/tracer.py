@@ -42,6 +42,9 @@ from zeroset.scene.several import Drawable
 from zeroset.solve.method import Method
 
 Buffers = Mapping[str, Any]
+Pause = Callable[[], object]
+FEW = 512
+"""Rays that are searched in f64 between two pauses: each may take its time."""
 STEPS = 8
 """Steps that a ray without a beam begins with."""
 AT_ONCE = 5
@@ -226,18 +229,36 @@ class Tracer:
             here, onward, former = onward, here, found[-1]["status"]
         return found
 
-    def second_look(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers) -> None:
-        """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so."""
+    def second_look(
+        self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers, pause: Pause | None = None
+    ) -> None:
+        """Trace the rays that the first look left unresolved again, in f64; where there is no f64 they stay so.
+
+        ``pause`` is called now and then where it can be told how many there are.
+        """
         if not self.exact or self._device.lanes(Counted(bound[COUNTERS], 0)) == 0:
             return
-        self._in_doubles("second", Counted(bound[COUNTERS], 0), drawn, uniforms, bound)
+        self._in_doubles("second", Counted(bound[COUNTERS], 0), drawn, uniforms, bound, pause)
 
     def _in_doubles(
-        self, name: str, lanes: Counted, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers
+        self,
+        name: str,
+        lanes: Counted,
+        drawn: Drawn,
+        uniforms: Mapping[str, float],
+        bound: Buffers,
+        pause: Pause | None = None,
     ) -> None:
         """Run a pass that reads its numbers in f64."""
         exact, arrays = self.in_doubles(drawn)
-        self.program(name).run(lanes, {**uniforms, **exact}, {**bound, **arrays})
+        numbers, buffers = {**uniforms, **exact, "listed": 0}, {**bound, **arrays}
+        count = None if pause is None else self._device.lanes(lanes)
+        if pause is None or count is None:
+            self.program(name).run(lanes, numbers, buffers)
+            return
+        for first in range(0, count, FEW):
+            pause()
+            self.program(name).run(min(FEW, count - first), {**numbers, "listed": first}, buffers)
 
     def in_doubles(self, drawn: Drawn) -> tuple[dict[str, float], dict[str, Any]]:
         """The numbers that a pass in f64 reads beside a frame's, and the arrays."""
@@ -250,7 +271,14 @@ class Tracer:
         for light in lights:
             self.program("shadow").run(rays, {**uniforms, **light}, bound)
 
-    def thin_parts(self, drawn: Drawn, uniforms: Mapping[str, float], bound: Buffers, tiles: int) -> None:
+    def thin_parts(
+        self,
+        drawn: Drawn,
+        uniforms: Mapping[str, float],
+        bound: Buffers,
+        tiles: int,
+        pause: Pause | None = None,
+    ) -> None:
         """Draw what lies between the rays: by blocks, quarters of those, pixels, and parts of those, last in f64."""
         if not self.beams:
             return
@@ -266,4 +294,4 @@ class Tracer:
         left = Counted(bound[COUNTERS], 4)
         if self._passes.again and self._device.lanes(left) != 0:
             self._making.begin((RARE,), 1, (RARE,) if self._hurry else ())
-            self._in_doubles(RARE, left, drawn, uniforms, bound)
+            self._in_doubles(RARE, left, drawn, uniforms, bound, pause)

@@ -16,7 +16,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from zeroset.errors import ViewError
-from zeroset.runtime.gpu.adapter import quiet_wayland
+from zeroset.runtime.gpu.adapter import BACKENDS, quiet_wayland
 
 DESKTOP = ("wgpu", "rendercanvas", "glfw", "imgui_bundle")
 NOTEBOOK = ("wgpu", "rendercanvas", "anywidget", "imgui_bundle")
@@ -63,9 +63,11 @@ def find_adapter() -> Any:
 
     try:
         with quiet_wayland():
-            return wgpu.gpu.request_adapter_sync(power_preference="high-performance")
+            adapter = wgpu.gpu.request_adapter_sync(power_preference="high-performance")
     except RuntimeError:
         return None
+    # On OpenGL wgpu ends the process where it cannot make a window.
+    return adapter if adapter.info["backend_type"] in BACKENDS else None
 
 
 def desktop_canvas(size: tuple[int, int], title: str, panels: bool) -> tuple[Any, Any]:

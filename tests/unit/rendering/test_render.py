@@ -194,3 +194,21 @@ def test_where_functions_overflow_a_ray_is_left_open_and_not_walked_along_for_mi
     assert hits.status[0].tolist() == [zs.HIT, zs.UNRESOLVED, zs.MISS]
     assert hits.t[0, 0] == pytest.approx(2.5 + np.log(np.log(np.log(5))), abs=1e-3)
     assert hits.steps.max() < 40_000
+
+
+def test_searches_in_f64_can_be_given_up() -> None:
+    """All rays of a jump are searched again, one after the other: who waits hears of it every now and then."""
+    shares: list[float] = []
+    image = zs.render(zs.surface("z = floor(x)", bounds=2.0), 128, device="cpu", progress=shares.append)
+    assert image.unresolved > 1200
+    assert shares.count(1.0) >= 3
+
+    class GivenUpError(Exception):
+        pass
+
+    def give_up(share: float) -> None:
+        if share == 1.0:
+            raise GivenUpError
+
+    with pytest.raises(GivenUpError):
+        zs.render(zs.surface("z = floor(x)", bounds=2.0), 128, device="cpu", progress=give_up)

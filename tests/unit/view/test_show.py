@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -223,3 +224,11 @@ def test_a_narrow_picture_keeps_the_word_on_what_is_proven() -> None:
     assert fitting(widths, 18.0, 10.0) == [5]
     # What comes after it is a message, and stays.
     assert fitting([*widths, 150.0], 18.0, 10.0) == [5, 6]
+
+
+def test_opengl_draws_no_windows(monkeypatch: pytest.MonkeyPatch) -> None:
+    wgpu = pytest.importorskip("wgpu")
+    for kind, drawn in (("OpenGL", False), ("Vulkan", True)):
+        adapter = SimpleNamespace(info={"backend_type": kind})
+        monkeypatch.setattr(wgpu.gpu, "request_adapter_sync", lambda found=adapter, **options: found)
+        assert (canvas.find_adapter() is adapter) == drawn

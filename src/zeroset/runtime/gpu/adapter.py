@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from zeroset.errors import DeviceError
 
 _ORDER = {"DiscreteGPU": 0, "IntegratedGPU": 1, "Unknown": 2, "CPU": 3}
-_BACKENDS = ("Vulkan", "Metal", "D3D12")
+BACKENDS = ("Vulkan", "Metal", "D3D12")
 """What wgpu has compute shaders on; OpenGL's lack too much."""
 _FEATURES = {
     "subgroups": ("subgroup",),
@@ -87,7 +87,7 @@ def adapters() -> tuple[Found, ...]:
             offered = wgpu.gpu.enumerate_adapters_sync()
     except RuntimeError as error:
         raise DeviceError(f"the graphics drivers cannot be asked for GPUs: {error}") from error
-    found = [_found(a) for a in offered if a.info["backend_type"] in _BACKENDS]
+    found = [_found(a) for a in offered if a.info["backend_type"] in BACKENDS]
     return tuple(sorted(found, key=lambda f: _ORDER.get(f.adapter.info["adapter_type"], 2)))
 
 
