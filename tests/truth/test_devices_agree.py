@@ -18,7 +18,7 @@ from zeroset.rendering.render import default_tolerance
 from zeroset.scene.surface import Surface
 
 ALL = bool(os.environ.get("ZEROSET_TRUTH_METHODS"))
-"""Whether every method is compared on every surface, half an hour's work on software, and not one beside the default."""
+"""Whether every method is compared on every surface, and not one alone: half an hour's work in software."""
 SIZE = 96
 DIFFERENT = 0.001
 """Share of the pixels that may have another status, or show another sheet of the surface."""
