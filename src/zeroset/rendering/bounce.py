@@ -85,7 +85,8 @@ class Bounces:
             return edge_kernel(tracer.beams, several)
 
         # Layers are counted: what is only rounding must not be one. Mirrored rays are as certain as the camera's.
-        self.exact = (optics.through or optics.mirror) and tracer.exact
+        # So are shadows where f32 does not know the numbers.
+        self.exact = (optics.through or optics.mirror or shape.large) and tracer.exact
         own = f"{shape.digest} {offset} {optics} {self.exact}{'' if tint is None else f' {tint.digest}'}"
         self._path, self._sample = f"path {own}", f"sample {own} {tracer.beams}"
         self._edges = shader or f"edges {tracer.beams} {several}"

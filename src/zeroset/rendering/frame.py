@@ -226,7 +226,7 @@ class Frame:
             kept, range_ = {**self._fields, VALUE: F32}, self._colors.range
         if self._shades:
             if light is not None and LIT in self._buffers:
-                self._tracer.shadows(light.shadows, uniforms, bound)
+                self._tracer.shadows(drawn, light.shadows, uniforms, bound)
             if self._bounces is None:
                 self._tracer.program(self._shader).run(lanes, uniforms, {**bound, PICTURE: self.picture})
         if self._bounces is not None and light is not None:

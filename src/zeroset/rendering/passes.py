@@ -117,4 +117,4 @@ class Passes(NamedTuple):
     def _shadow(self) -> Kernel:
         from zeroset.rendering.shadow import shadow_kernel
 
-        return shadow_kernel(self.shape, self._offset)
+        return shadow_kernel(self.shape, self._offset, self.exact and self.shape.large)

@@ -111,9 +111,10 @@ def _chain(
     place: Value,
     step: Value | None = None,
 ) -> Chain:
-    response = Response(Subject(shape, builder, offset=offset), optics)
+    doubles = Subject(shape, builder, F64, offset) if exact else None
+    response = Response(Subject(shape, builder, offset=offset), optics, doubles)
     measure = None if tint is None else Measure(builder, offset, tint)
-    return Chain(response, measure, place, step, Subject(shape, builder, F64, offset) if exact else None)
+    return Chain(response, measure, place, step, doubles)
 
 
 def _encoded(color: Color) -> Values:

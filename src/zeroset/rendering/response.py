@@ -82,9 +82,11 @@ class Response:
     Args:
         subject: what they meet.
         optics: what light does.
+        exact: the same in f64, where there is one.
     """
 
-    def __init__(self, subject: Subject, optics: Optics) -> None:
+    def __init__(self, subject: Subject, optics: Optics, exact: Subject | None = None) -> None:
+        self._hiding = subject if exact is None or not subject.shape.large else exact
         self.builder = subject.builder
         self.subject = subject
         self.optics = optics
@@ -142,7 +144,7 @@ class Response:
             light = if_(near > 0.0, lambda: tuple(normalised(toward)), lambda: tuple(p * shorter for p in (x, y, z)))
             if self.optics.shadows:
                 facing = dot(seen.normal, light) > 0.0
-                reached = way_is_free(self.subject, point, toward, facing)
+                reached = way_is_free(self._hiding, point, toward, facing)
                 tint = [reached.select(c, 0.0) for c in tint]
             lit: tuple[Value, ...] = seen.lit(color, light, tint)
             return lit

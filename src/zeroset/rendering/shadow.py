@@ -11,8 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from zeroset.arith import F32 as FORMAT
-from zeroset.kernel import BOOL, F32, U32, Kernel, KernelBuilder, Value, constant, if_, load, store
+from zeroset.arith import F32 as FORMAT32
+from zeroset.arith import F64 as FORMAT64
+from zeroset.kernel import BOOL, F32, F64, U32, Kernel, KernelBuilder, Value, constant, if_, load, store
 from zeroset.rendering.buffers import LIT, NORMAL
 from zeroset.rendering.layout import pixel_coordinates
 from zeroset.rendering.view import pixel_ray
@@ -29,19 +30,22 @@ from zeroset.solve.subject import Subject
 from zeroset.solve.systems import automatic_system
 from zeroset.solve.walk import Striding
 
+FORMATS = {F32: FORMAT32, F64: FORMAT64}
 CLEAR = 2.0
 """Tolerances around the point that are not searched."""
 
 
-def shadow_kernel(shape: Shape, offset: bool) -> Kernel:
+def shadow_kernel(shape: Shape, offset: bool, exact: bool = False) -> Kernel:
     """One light; sets the light's ``bit`` of each point that it reaches.
+
+    ``exact``: whether it searches in f64, which is for formulas with numbers that are too large for f32.
 
     Uniforms beside the frame's own: ``light_x``, ``light_y``, ``light_z``, ``light_w``: the light's place with w = 1,
     with w = 0 a way towards it that leads out of the bounds from anywhere; ``shadow_tolerance``, a length; ``bit``.
     """
     with KernelBuilder("shadow") as builder:
         lane = builder.index()
-        subject = Subject(shape, builder, offset=offset)
+        subject = Subject(shape, builder, F64 if exact else F32, offset)
         ray = pixel_ray(builder, *pixel_coordinates(builder, lane))
         hit = load(builder.buffer("status", U32), lane).ne(MISS)
         (free,) = if_(hit, lambda: (_is_lit(builder, subject, ray, lane),), lambda: (False,))
@@ -93,15 +97,17 @@ def _free_of(
     body: LoweredBody, point: Sequence[Value], toward: Sequence[Value], tolerance: Value, asked: Value
 ) -> Value:
     """Whether nothing of one body lies between a light and a point."""
-    system = automatic_system(body.body if not body.body.plain else body.first.field, FORMAT)
+    system = automatic_system(body.body if not body.body.plain else body.first.field, FORMATS[body.type])
     own = None if body.body.plain else body
+    point, toward = ([v.convert(body.type) for v in vector] for vector in (point, toward))
+    tolerance = tolerance.convert(body.type)
 
     def problem(ray: Ray, first: Value, last: Value) -> Problem:
         start, end = clip(body.builder, body.body.kind, ray.origin, ray.direction, body.body.prefix)
         start, end = start.maximum(first), end.minimum(last)
         return Problem(body.first, ray, start, end, tolerance, (end - start) * 0.125, own)
 
-    zero, one, gap = constant(0.0, F32), constant(1.0, F32), tolerance * CLEAR
+    zero, one, gap = constant(0.0, body.type), constant(1.0, body.type), tolerance * CLEAR
     away = problem(Ray(tuple(point), tuple(toward)), gap, one)
     if can_clip(away):
         rest, hidden = looked_over(away, asked)

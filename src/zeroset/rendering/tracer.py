@@ -264,9 +264,14 @@ class Tracer:
         """The numbers that a pass in f64 reads beside a frame's, and the arrays."""
         return drawn.parameters(self._passes.method, F64), drawn.bind(self._arrays, F64) if drawn.arrays else {}
 
-    def shadows(self, lights: Iterable[Mapping[str, float]], uniforms: Mapping[str, float], bound: Buffers) -> None:
+    def shadows(
+        self, drawn: Drawn, lights: Iterable[Mapping[str, float]], uniforms: Mapping[str, float], bound: Buffers
+    ) -> None:
         """See which lights reach what was found."""
         self._device.clear(bound[LIT])
+        if self.exact and drawn.shape.large:
+            exact, arrays = self.in_doubles(drawn)
+            uniforms, bound = {**uniforms, **exact}, {**bound, **arrays}
         rays = len(bound[LIT])
         for light in lights:
             self.program("shadow").run(rays, {**uniforms, **light}, bound)

@@ -169,6 +169,11 @@ class Shape(NamedTuple):
         return max(body.highest_power for body in self.bodies)
 
     @property
+    def large(self) -> bool:
+        """Whether something on the way to any formula may be larger than f32 knows."""
+        return any(leaf.field.large for body in self.bodies for leaf, _ in body.leaves)
+
+    @property
     def continuous(self) -> bool:
         """Whether all formulas are likely to be defined and continuous everywhere."""
         return all(body.continuous for body in self.bodies)

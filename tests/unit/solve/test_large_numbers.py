@@ -84,3 +84,18 @@ def test_bounds_that_are_fitted_tell_as_well() -> None:
         found = zs.cast(zs.surface(formula), [-5.0, 0.0, 0.0], [1.0, 0.0, 0.0], device="cpu")
         assert (found.status[0], found.t[0]) == (HIT, pytest.approx(4.0, abs=1e-3))
         assert surface.drawn_in(surface.fitted).large == large
+
+
+def test_light_is_the_same_on_large_numbers() -> None:
+    plain = zs.surface("x + (y^2 + z^2)/2 - sqrt(x^2 + 1)/4", bounds=2.0)
+    large = zs.surface("(x + (y^2 + z^2)/2 - sqrt(x^2 + 1)/4)*1e34", bounds=2.0)
+    lamp = zs.Light(position=(-1.0, -3.0, 2.0), headlight=False)
+    camera = zs.Camera(eye=(5.0, -3.0, 2.0))
+    mirror = zs.Material(reflectance=0.4)
+    for options in ({}, {"antialias": 4}, {"material": mirror, "depth": 2}):
+        one, two = (
+            np.asarray(zs.render(s, 64, camera, lights=[lamp], shadows=True, device="cpu", **options)).astype(int)
+            for s in (plain, large)
+        )
+        assert np.count_nonzero(abs(one - two).max(axis=-1) > 2) <= 8
+        assert len(np.unique(one.reshape(-1, 3), axis=0)) > 20
