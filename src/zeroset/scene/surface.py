@@ -108,6 +108,18 @@ class Surface:
         """The formula as text."""
         return text(self.field.expr)
 
+    @property
+    def expr(self) -> Expr:
+        """f as an expression: operators and NumPy's functions make further ones of it, which ``zs.surface`` takes.
+
+        Example:
+            >>> import zeroset as zs
+            >>> ball, plane = zs.surface("x^2 + y^2 + z^2 = 1"), zs.surface("z")
+            >>> zs.surface(ball.expr * plane.expr - 2).formula
+            '(x^2 + y^2 + z^2 - 1)*z - 2'
+        """
+        return self.field.expr
+
     def with_params(self, **values: Any) -> Surface:
         """The same surface with other parameter values; nothing is compiled anew."""
         params, arrays = dict(self.params), dict(self.arrays)
