@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from zeroset.expr.balls import Ball
     from zeroset.expr.dag import Expr
 
-__all__ = ["check_constants", "enclose"]
+__all__ = ["check_constants", "enclose", "is_number"]
 
 _DIGITS = (50, 100, 200, 400)
 _known: dict[int, weakref.WeakKeyDictionary[Expr, Ball | bool | None]] = {
@@ -44,7 +44,7 @@ def enclose(expr: Expr) -> tuple[float, float]:
         >>> enclose(PI)
         (3.141592653589793, 3.1415926535897936)
     """
-    if not _is_number(expr):
+    if not is_number(expr):
         raise TypeError("only a number that depends on nothing can be enclosed")
     value = rational(expr)
     if value is not None:
@@ -63,11 +63,11 @@ def check_constants(parts: Iterable[Expr]) -> None:
     for part in parts:
         if part.symbols:
             for arg in part.args:
-                if _is_number(arg) and rational(arg) != 0:
+                if is_number(arg) and rational(arg) != 0:
                     enclose(arg)
 
 
-def _is_number(expr: Expr) -> bool:
+def is_number(expr: Expr) -> bool:
     """Whether a node is a constant with a numeric value."""
     return expr.is_constant and not expr.is_condition
 

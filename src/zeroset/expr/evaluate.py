@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import ChainMap
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from zeroset.expr.constants import enclose
+from zeroset.expr.constants import enclose, is_number
 from zeroset.expr.dag import Expr, node, postorder
 from zeroset.expr.ops import OPS
 
@@ -79,7 +79,7 @@ class _Evaluation:
         """The value of a node, after all that it needs."""
 
         def needs(part: Expr) -> Iterable[Expr]:
-            if part in known or _is_number(part):
+            if part in known or is_number(part):
                 return ()
             return _hoisted(part, indices) if part.op == "sum" else part.args
 
@@ -90,7 +90,7 @@ class _Evaluation:
 
     def _apply(self, part: Expr, known: MutableMapping[Expr, Any], indices: frozenset[str]) -> Any:
         """The value of a node whose needs are known."""
-        if _is_number(part):
+        if is_number(part):
             return self.system.constant(*enclose(part))
         match part.op:
             case "variable":
@@ -135,8 +135,3 @@ def _hoisted(part: Expr, indices: frozenset[str]) -> list[Expr]:
 def _method_data(part: Expr) -> tuple[Any, ...]:
     """What a method gets besides numbers: `powi(n)`, `powr((p, q))`."""
     return (part.data,) if part.op == "powr" else part.data
-
-
-def _is_number(part: Expr) -> bool:
-    """Whether a node is a constant with a numeric value, to be enclosed as a whole."""
-    return part.is_constant and not part.is_condition

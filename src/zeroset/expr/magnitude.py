@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from zeroset.expr.constants import enclose
+from zeroset.expr.constants import enclose, is_number
 from zeroset.expr.dag import postorder
 
 if TYPE_CHECKING:
@@ -40,10 +40,10 @@ class Magnitude:
     """
 
     def __init__(self, expr: Expr) -> None:
-        parts = tuple(postorder(expr))
+        parts = tuple(postorder(expr, _arguments))
         places = {part: i for i, part in enumerate(parts)}
         # For each part its rule, what it takes beside sizes, and where those of its arguments are.
-        self._steps = tuple((*_rule(part), tuple(places[arg] for arg in part.args)) for part in parts)
+        self._steps = tuple((*_rule(part), tuple(places[arg] for arg in _arguments(part))) for part in parts)
 
     def largest(self, sizes: Mapping[str, float], arrays: Mapping[str, tuple[float, int]]) -> float:
         """The largest value of any part.
@@ -76,9 +76,12 @@ class Magnitude:
 
 def _rule(part: Expr) -> tuple[Any, Any]:
     """How a part's size comes of those of its arguments, and what else that takes: a size itself for None."""
+    if is_number(part):
+        return None, max(map(abs, enclose(part)))
     match part.op:
-        case "const":
-            return None, max(map(abs, enclose(part)))
+        case "div" if is_number(part.args[1]):
+            # Kernels multiply by one over it.
+            return _quotient, None
         case "variable" | "parameter":
             return "name", str(part.data[0])
         case "element":
@@ -91,6 +94,14 @@ def _rule(part: Expr) -> tuple[Any, Any]:
             over, under = part.data
             return "power", max(float(over) / float(under), 1.0)
     return (_RULES[part.op], None) if part.op in _RULES else (None, _WATCHED)
+
+
+def _arguments(part: Expr) -> tuple[Expr, ...]:
+    return () if is_number(part) else part.args
+
+
+def _quotient(a: float, b: float) -> float:
+    return a / b if b > 0.0 else math.inf
 
 
 def _power(size: float, exponent: float) -> float:

@@ -34,7 +34,8 @@ if TYPE_CHECKING:
 
 PLENTY = 2.0**90
 """Largest number on the way to f up to which nobody has to look: kernels in f32 know numbers up to 2^112, and what they
-calculate beside f, its derivatives, may be larger than f."""
+calculate beside f, its derivatives, may be larger than f: by its degree, or by the 8,192 up to which they tell angles
+from each other, over the size of the bounds. Quotients, exponentials and poles watch over themselves."""
 Enclosure = tuple[float, float]
 """Two doubles with a number between them."""
 

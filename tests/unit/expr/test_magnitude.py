@@ -26,6 +26,8 @@ def largest(formula: str, **arrays: tuple[float, int]) -> float:
         ("if(x < y, a y, z)", 4e20),
         ("sum(i, r[i] x)", 3e4),
         ("abs(x - 1e35)", 1e35),
+        ("exp(70) x", 3 * math.exp(70)),
+        ("x/sqrt(2e-66)", 3 / 2e-66**0.5),
     ],
 )
 def test_the_largest_part_counts(formula: str, expected: float) -> None:
